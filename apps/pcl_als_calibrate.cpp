@@ -104,8 +104,8 @@ CommandLine commandLine() {
   line.exclude({"strip_corrections", "bounds"});
   line.makeDependent("strip_corrections", "corrected");
   app::addReportOption(line, "folder for report.html (with pictures), report.md, tables as CSV",
-                       {"parameters.csv", "control.csv", "held.csv", "systems.csv", "pairs.csv",
-                        "iterations.csv", "areas.csv"});
+                       {"parameters.csv", "control.csv", "held.csv", "systems.csv",
+                        "large_corrections.csv", "pairs.csv", "iterations.csv", "areas.csv"});
   app::addErrorOptions(line);
   app::addAccuracyOption(line,
                          "their root mean squares over the strips are the prior standard "

@@ -215,5 +215,26 @@ TEST(BlockMap, ShowsOverlapsWhereTheyAre) {
   placeOf(low, "and 24 more");
 }
 
+/// Marks stand at their places, two at the same place with one label, and the legend names them.
+TEST(BlockMap, MarksPartsOfFlightPaths) {
+  StripCoverage coverage({0.0, 0.0}, {1000.0, 500.0}, 1);
+  for (double x = 1.0; x < 1000.0; x += 2.0)
+    for (double y = 1.0; y < 500.0; y += 2.0) coverage.add({x, y, 0.0}, 0);
+  BlockMap map;
+  const Canvas plain = map.draw(coverage, {"1"});
+  map.setMarks({{{200.0, 100.0}, {300.0, 100.0}, "1"},
+                {{205.0, 100.0}, {295.0, 100.0}, "2"},
+                {{800.0, 400.0}, {800.0, 450.0}, "3"}},
+               "large errors");
+  const Canvas canvas = map.draw(coverage, {"1"});
+  expectTidy(canvas);
+  placeOf(canvas, "large errors");
+  const auto both = placeOf(canvas, "1, 2"), third = placeOf(canvas, "3");
+  EXPECT_LT(both.x, third.x);
+  EXPECT_GT(both.y, third.y);  // further south
+  EXPECT_EQ(countOf(plain, Color::rgb(0xcc0033)), 0);
+  EXPECT_GT(countOf(canvas, Color::rgb(0xcc0033)), 300);
+}
+
 }  // namespace
 }  // namespace pcl_als

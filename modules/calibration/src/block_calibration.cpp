@@ -12,9 +12,11 @@
 #include "calibration_judgement.h"
 #include "calibration_report.h"
 #include "error_diagnosis.h"
+#include "large_corrections.h"
 #include "misfit_comparison.h"
 #include "pair_coverage.h"
 #include "prior_comparison.h"
+#include "rejected_pairs.h"
 #include "strip_error_check.h"
 #include "system_groups.h"
 
@@ -208,13 +210,16 @@ BlockCalibration calibrate(AreaSample& sample,
       largeStripErrors(result.strip_errors, settings.shared_errors, kNoticeableCorrection),
       block.strips.ids, solution.adjustment, solution.choice);
   checkHeldHeights(block, solution, result);
-  diagnoseParts(sample, estimate, result);
+  LargeCorrectionHints hints{diagnoseParts(sample, estimate, result)};
   if (!result.converged)  // the last pairs are newer than their weights
     weigh(estimate.pairs, true, settings.threads, estimate.solution);
   made.information = solution.adjustment.informationShares(solution.choice.estimate);
   made.information.resize(block.areas.size(), 0.0);
   made.adjusted = adjustedSurvey(block, solution, estimate.pairs);
+  hints.rejected_together = areRejectedTogether(estimate.pairs, solution.weights.weights());
   addFits(sample, report, estimate, result);
+  result.large_corrections =
+      largeCorrections(block, estimate, result.strip_errors, made.adjusted.strips, hints);
   result.misfit = misfit.change(estimate.pairs.observations, result.biases());
   const BiasPrior& prior = settings.shared_errors.biases;
   if (prior.any())

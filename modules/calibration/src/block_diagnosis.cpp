@@ -20,9 +20,7 @@
 #include "strip_consistency.h"
 
 namespace pcl_als {
-namespace {
 
-/// One strip of each pass whose trajectory errors are estimated.
 std::vector<JumpSearch::Strip> correctedPasses(const SurveyBlock& block) {
   const std::vector<bool> corrected = block.strips.corrected();
   std::vector<JumpSearch::Strip> passes;
@@ -34,8 +32,10 @@ std::vector<JumpSearch::Strip> correctedPasses(const SurveyBlock& block) {
   return passes;
 }
 
-void addJump(const std::vector<JumpSearch::Strip>& strips, const BlockEstimate& estimate,
-             CalibrationResult& result) {
+namespace {
+
+std::optional<JumpSearch::Place> addJump(const std::vector<JumpSearch::Strip>& strips,
+                                         const BlockEstimate& estimate, CalibrationResult& result) {
   const BlockSolution& solution = estimate.solution;
   const JumpSearch jumps(solution.adjustment,
                          solveForAllParameters(solution.adjustment, solution.choice.estimate,
@@ -45,6 +45,7 @@ void addJump(const std::vector<JumpSearch::Strip>& strips, const BlockEstimate& 
   result.diagnosis.push_back(jump);
   if (jump.determined && jump.probability > kSupported)
     result.warnings.push_back(jump.title + ": " + jump.evidence + "; " + jump.remedy);
+  return jumps.place();
 }
 
 /// An error of the scan angle as a function of it.
@@ -74,13 +75,14 @@ SharedErrorModel errorModelOf(const SurveyBlock& block, const BlockSolution& sol
   return model;
 }
 
-void diagnoseParts(const AreaSample& sample, const BlockEstimate& estimate,
-                   CalibrationResult& result) {
-  if (result.diagnosis.empty()) return;  // not asked for, or not solved
+std::optional<JumpSearch::Place> diagnoseParts(const AreaSample& sample,
+                                               const BlockEstimate& estimate,
+                                               CalibrationResult& result) {
+  if (result.diagnosis.empty()) return std::nullopt;  // not asked for, or not solved
   const SurveyBlock& block = sample.block();
   const ScanGeometry edge = swathEdge(estimate.pairs.observations);
   const std::vector<JumpSearch::Strip> strips = correctedPasses(block);
-  addJump(strips, estimate, result);
+  std::optional<JumpSearch::Place> jump = addJump(strips, estimate, result);
   const std::size_t before = result.diagnosis.size();
   if (!block.compared.empty())
     addGroupDifferences(block.compared, strips.size(), edge, estimate.solution.choice,
@@ -88,6 +90,7 @@ void diagnoseParts(const AreaSample& sample, const BlockEstimate& estimate,
   judgeDifferences(before, block.settings().shared_errors.position, Remedy::none, result);
   diagnoseFields(sample, estimate, edge, result);
   diagnoseAngles(block, estimate, edge, result);
+  return jump;
 }
 
 void warnOfTargets(const AreaSample& sample, CalibrationResult& result) {

@@ -2,12 +2,14 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <pcl_als/common/calibration_result.h>
 
 #include "block.h"
 #include "block_estimate.h"
+#include "jump_search.h"
 
 namespace pcl_als {
 
@@ -28,15 +30,18 @@ void replaceHeld(const BlockStrips& strips, std::vector<AreaObservations>& obser
 
 // The whole block.
 
+/// One strip of each pass whose trajectory errors are estimated.
+std::vector<JumpSearch::Strip> correctedPasses(const SurveyBlock& block);
 /// The parameters that cannot be told from a height offset of the block.
 void judgeBlockOffset(const BlockEstimate& estimate, CalibrationResult& result);
 /// The model of the shared errors with the prior of the parameters that the solution has used.
 SharedErrorModel errorModelOf(const SurveyBlock& block, const BlockSolution& solution);
 /// The causes that concern parts of the block: jumps of the trajectory, differences between
 /// sessions or channels, between points of one strip that differ in a field, and an error of the
-/// scan angle as a function of it. Collective.
-void diagnoseParts(const AreaSample& sample, const BlockEstimate& estimate,
-                   CalibrationResult& result);
+/// scan angle as a function of it. Collective. Returns the place of a jump, if there is one.
+std::optional<JumpSearch::Place> diagnoseParts(const AreaSample& sample,
+                                               const BlockEstimate& estimate,
+                                               CalibrationResult& result);
 /// Constant differences between points of one strip that differ in their channel, user data or scan
 /// direction. Collective.
 void diagnoseFields(const AreaSample& sample, const BlockEstimate& estimate,

@@ -139,6 +139,9 @@ JumpSearch::JumpSearch(const Adjustment& adjustment, const AdjustmentSolution& s
                 strips[static_cast<std::size_t>(best->strip)].id.c_str(), kNames[best->axis],
                 best->from, best->to);
   finding_.evidence = evidenceOf(finding_) + place;
+  if (finding_.determined && finding_.probability > kSupported)
+    place_ = Place{strips[static_cast<std::size_t>(best->strip)].id,
+                   static_cast<std::size_t>(best->axis), best->from, best->to, finding_.value};
 }
 
 }  // namespace pcl_als

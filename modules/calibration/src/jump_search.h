@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,11 +34,22 @@ class JumpSearch {
   JumpSearch(const Adjustment& adjustment, const AdjustmentSolution& solution,
              const std::vector<Strip>& strips);
 
+  /// The most probable jump.
+  struct Place {
+    std::string strip;
+    std::size_t axis = 0;         ///< 0 east, 1 north, 2 up
+    double from = 0.0, to = 0.0;  ///< seconds
+    double value = 0.0;           ///< metres
+  };
+  /// None where the data determine none, or where it is improbable that there is one.
+  const std::optional<Place>& place() const { return place_; }
+
   /// The probability of a jump anywhere, with place and size of the most probable one.
   const ErrorFinding& finding() const { return finding_; }
 
  private:
   ErrorFinding finding_;
+  std::optional<Place> place_;
 };
 
 }  // namespace pcl_als

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -221,6 +222,31 @@ std::string setPriors(const CalibrationOptions& options, const SurveyReader& sur
          describe(summary);
 }
 
+/// Adds to large corrections that the trajectory states a low accuracy there, first of the causes.
+void addStatedAccuracy(const CalibrationOptions& options, const SurveyReader& survey,
+                       std::vector<LargeCorrection>& corrections) {
+  constexpr double kLow = 2.0;  // times the root mean square over the strips
+  if (options.accuracy.empty()) return;
+  const AccuracySummary usual = summarize(options.accuracy, survey.observedTimes());
+  for (LargeCorrection& correction : corrections) {
+    const TrajectoryAccuracy at = accuracyAt(options.accuracy, correction.time);
+    const std::array<double, kTrajectoryAxes.size()> stated{at.position.x(), at.position.y(),
+                                                            at.position.z(), at.angles.y(),
+                                                            at.angles.x(),   at.angles.z()},
+        mean{usual.position,   usual.position,   usual.position,
+             usual.roll_pitch, usual.roll_pitch, usual.heading};
+    const double here = stated[correction.axis], ratio = here / mean[correction.axis];
+    if (!(ratio > kLow)) continue;
+    const TrajectoryAxis& axis = correction.axisInfo();
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "the trajectory states a standard deviation of %.3g %s there, %.1f times that "
+                  "over the strips",
+                  here / axis.internal_per_unit, std::string(axis.unit).c_str(), ratio);
+    correction.causes.insert(correction.causes.begin(), {"stated_accuracy", text});
+  }
+}
+
 /// The standard deviation of the heights of a reconstructed path during the strips. The errors of
 /// the points are not those of the path: they are those of the trajectory that the points were
 /// computed with.
@@ -313,6 +339,7 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   for (const std::string& text : checkReferences(survey, options.references)) progress.remark(text);
   SurveyCalibration made = calibrateBlock(survey, flight, options, request, progress);
   made.result.warnings.insert(made.result.warnings.end(), warnings.begin(), warnings.end());
+  addStatedAccuracy(options, survey, made.result.large_corrections);
   describeInputs(survey, options, made.result);
   return made;
 }

@@ -232,6 +232,14 @@ void stripTable(const CalibrationResult& result, std::ostream& out) {
   }
 }
 
+void largeCorrectionList(const CalibrationResult& result, std::ostream& out) {
+  if (result.large_corrections.empty()) return;
+  out << "\nLargest errors of the trajectory, beyond ordinary ones\n\n";
+  int number = 0;
+  for (const LargeCorrection& correction : result.large_corrections)
+    out << ++number << ". " << describe(correction) << '\n';
+}
+
 /// The remedy of an error that is probably present, by name.
 void remedies(const CalibrationResult& result, std::ostringstream& out) {
   for (const ErrorFinding& finding : result.diagnosis) {
@@ -301,6 +309,7 @@ std::string CalibrationResult::fullReport() const {
   targetTable(result, out);
   heldTable(result, out);
   stripTable(result, out);
+  largeCorrectionList(result, out);
   diagnosisTable(result, out);
   if (!result.observability.empty()) out << "\nWhat the block determines\n\n";
   for (const std::string& text : result.observability) out << "- " << text << '\n';

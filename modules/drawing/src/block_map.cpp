@@ -138,6 +138,47 @@ void drawPath(Canvas& canvas, const BlockMap::Path& path, double enlargement,
   }
 }
 
+/// Marked parts as strokes, then their labels beside the middle of each, on disks.
+void drawMarks(Canvas& canvas, const std::vector<BlockMap::Mark>& marks, const MapFrame& frame) {
+  struct Label {
+    Eigen::Vector2d at;
+    std::string text;
+  };
+  constexpr double kWidth = 6.0, kCasing = 10.0, kDisk = 24.0, kAside = 22.0;  // pixels
+  std::vector<Label> labels;
+  for (const auto& [width, color] : {std::pair(kCasing, ink::white), {kWidth, kPathColor}}) {
+    for (const BlockMap::Mark& mark : marks) {
+      const Eigen::Vector2d from = frame.pixel(mark.begin), to = frame.pixel(mark.end);
+      canvas.line(from, to, width, color);
+      for (const Eigen::Vector2d& end : {from, to}) canvas.marker(Marker::disk, end, width, color);
+    }
+  }
+  for (const BlockMap::Mark& mark : marks) {
+    const Eigen::Vector2d from = frame.pixel(mark.begin), to = frame.pixel(mark.end);
+    // Beside the path, on its upper side.
+    const Eigen::Vector2d way = to - from;
+    Eigen::Vector2d aside = Eigen::Vector2d(way.y(), -way.x()).normalized();
+    if (aside.y() > 0.0) aside = -aside;
+    const Eigen::Vector2d at = 0.5 * (from + to) + kAside * aside;
+    const auto near = std::find_if(labels.begin(), labels.end(), [&](const Label& label) {
+      return (label.at - at).norm() < kDisk;
+    });
+    if (near != labels.end())
+      near->text += ", " + mark.label;
+    else
+      labels.push_back({at, mark.label});
+  }
+  const TextStyle style{14.0, ink::white, true, false, Align::center, Align::center};
+  for (const Label& label : labels) {
+    const double half = 0.5 * std::max(0.0, Canvas::textSize(label.text, style).x() - 8.0);
+    const Eigen::Vector2d across(half, 0.0);
+    canvas.line(label.at - across, label.at + across, kDisk, kPathColor);
+    for (const double side : {-1.0, 1.0})
+      canvas.marker(Marker::disk, label.at + side * across, kDisk, kPathColor);
+    canvas.text(label.text, label.at, style);
+  }
+}
+
 /// Legends of strips and of the number of strips, from \a corner downwards; returns the height
 /// below them.
 double drawStripLegends(Canvas& canvas, const std::vector<std::string>& names,
@@ -228,6 +269,7 @@ Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::stri
     canvas.marker(Marker::triangle, frame.pixel(point), 10.0, ink::black);
   }
   for (const Path& path : paths_) drawPath(canvas, path, enlargement_, frame);
+  drawMarks(canvas, marks_, frame);
   canvas.clearClip();
   canvas.frame(frame.box, 1.0, ink::gray);
   drawCoordinates(canvas, frame.north_west, frame.metres_per_pixel, frame.box);
@@ -236,6 +278,7 @@ Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::stri
   double y = drawStripLegends(canvas, names, {left, frame.box.y});
   std::vector<LegendEntry> marks;
   if (!areas_.empty()) marks.push_back({"areas used", mix(ink::white, kAreaColor, 0.6)});
+  if (!marks_.empty()) marks.push_back({marks_legend_, kPathColor, true});
   if (!marks.empty()) drawLegend(canvas, marks, "", {left, y});
   y += legendSize(marks, "").y();
   if (!control_.empty()) {

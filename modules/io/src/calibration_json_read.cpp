@@ -14,6 +14,7 @@
 #include "diagnosis_json.h"
 #include "json_node.h"
 #include "json_parse.h"
+#include "large_corrections_json.h"
 #include "prior_json.h"
 #include "strip_errors_json.h"
 
@@ -326,6 +327,7 @@ void readFlight(const Node& part, CalibrationResult& result) {
     if (!result.day) part["date"].refuse("is no date such as 2026-05-04");
   }
   readStripErrors(part, result);
+  readLargeCorrections(part, result);
   if (part.has("recovered_attitude")) readRecoveredAttitude(part["recovered_attitude"], result);
   if (part.has("held")) readHeld(part["held"], result);
 }

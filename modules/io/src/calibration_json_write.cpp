@@ -14,6 +14,7 @@
 #include "calibration_json.h"
 #include "diagnosis_json.h"
 #include "json_number.h"
+#include "large_corrections_json.h"
 #include "prior_json.h"
 #include "strip_errors_json.h"
 
@@ -248,6 +249,7 @@ Json flightJson(const CalibrationResult& result) {
   Json part;
   if (result.day) part["date"] = dateText(*result.day);
   part["strip_corrections"] = stripErrorsOf(result);
+  part["large_corrections"] = largeCorrectionsOf(result);
   if (!result.recovered_attitude.empty()) part["recovered_attitude"] = recoveredAttitudeOf(result);
   if (!result.held.empty()) part["held"] = heldOf(result);
   return part;

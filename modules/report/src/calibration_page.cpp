@@ -128,6 +128,30 @@ ReportTable heldTable(const CalibrationResult& result) {
   return table;
 }
 
+/// Numbered as on the map.
+ReportTable largeCorrectionTable(const CalibrationResult& result) {
+  ReportTable table{
+      "large_corrections",
+      "Largest errors of the trajectory, assumed − true; times: seconds, on the trajectory's "
+      "clock; ratio: error over the standard deviation of an ordinary one; on the ground: how far "
+      "it moves points at the edge of the swath",
+      {"number", "strip", "from, s", "to, s", "axis", "error", "std", "unit", "ratio",
+       "on the ground, m", "probable cause"},
+      {}};
+  for (const LargeCorrection& correction : result.large_corrections) {
+    const TrajectoryAxis& axis = correction.axisInfo();
+    const double std = correction.std / axis.internal_per_unit;
+    const int digits = decimalsOfStd(std);
+    table.rows.push_back(
+        {std::to_string(table.rows.size() + 1), correction.strip, numberText(correction.from, 1),
+         numberText(correction.to, 1), std::string(axis.name),
+         numberText(correction.value / axis.internal_per_unit, digits), numberText(std, digits),
+         std::string(axis.unit), numberText(correction.ratio(), 1),
+         numberText(correction.on_ground, 2), causeText(correction)});
+  }
+  return table;
+}
+
 /// With four significant digits: the units of the errors differ by orders of magnitude.
 std::string significant(double value) {
   char text[32];
@@ -233,6 +257,7 @@ void addFits(HtmlReport& report, const CalibrationResult& result) {
   if (!result.iterations.empty()) {
     report.addPicture(drawConvergence(result, kWide), "Update and fit by iteration.");
   }
+  if (!result.large_corrections.empty()) report.addTable(largeCorrectionTable(result));
   if (!result.strip_errors.empty()) {
     report.addPicture(drawStripErrors(result, {1400, 760}),
                       "What each strip's trajectory was found to be wrong by, over time.");
@@ -311,7 +336,8 @@ void CalibrationPage::write(const ReportOrigin& origin, const CalibrationResult&
   addFits(report, result);
 
   addProfile(report, *state_->survey, result, trajectory);
-  addMap(origin.control, *state_->coverage, state_->survey->strips(), areas, report);
+  addMap(origin.control, *state_->coverage, state_->survey->strips(), areas, report,
+         result.large_corrections);
   addOrigin(origin, result.inputs, report);
   report.write(origin.folder);
 }

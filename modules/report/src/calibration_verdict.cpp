@@ -96,6 +96,18 @@ void addTargets(const CalibrationResult& result, std::vector<std::string>& sente
                       " targets, distances of their mean places in the strips).");
 }
 
+/// The largest error of the trajectory, and how many there are.
+void addLargeCorrections(const CalibrationResult& result, std::vector<std::string>& sentences) {
+  if (result.large_corrections.empty()) return;
+  const LargeCorrection& first = result.large_corrections.front();
+  std::string size = sizeText(first);
+  if (const std::size_t at = size.find("+-"); at != std::string::npos) size.replace(at, 2, "±");
+  sentences.push_back("The trajectory is wrong by more than ordinary errors in " +
+                      counted(result.large_corrections.size(), "place") + ", most in strip " +
+                      first.strip + ", " + intervalText(first) + ": " + size +
+                      "; see the table and the map.");
+}
+
 }  // namespace
 
 std::string headingOf(SystemParameter parameter) {
@@ -133,6 +145,7 @@ Verdict verdictOf(const CalibrationResult& result) {
   }
   addControl(result, verdict.sentences);
   addTargets(result, verdict.sentences);
+  addLargeCorrections(result, verdict.sentences);
   const auto worst = std::max_element(
       result.pairs.begin(), result.pairs.end(),
       [](const PairFit& a, const PairFit& b) { return a.rms_after < b.rms_after; });

@@ -17,7 +17,7 @@ void addVerdict(const Verdict& verdict, HtmlReport& report) {
 
 void addMap(const std::vector<ControlPoint>& control, const StripCoverage& coverage,
             const std::vector<std::string>& strips, const std::vector<SurveyArea>& areas,
-            HtmlReport& report) {
+            HtmlReport& report, const std::vector<LargeCorrection>& corrections) {
   BlockMap map;
   map.setTitle(areas.empty() ? "Strips and overlaps"
                              : "Strips, overlaps and the areas that were used");
@@ -35,6 +35,13 @@ void addMap(const std::vector<ControlPoint>& control, const StripCoverage& cover
     for (const ControlPoint& point : control) places.emplace_back(point.position.head<2>());
     map.setControl(std::move(places));
     caption += ", control";
+  }
+  if (!corrections.empty()) {
+    std::vector<BlockMap::Mark> marks;
+    for (const LargeCorrection& correction : corrections)
+      marks.push_back({correction.begin, correction.end, std::to_string(marks.size() + 1)});
+    map.setMarks(std::move(marks), "largest trajectory errors");
+    caption += ", largest errors of the trajectory with the numbers of their table";
   }
   report.addSection("Map");
   const PictureSize size{1400, BlockMap::heightFor(coverage, 1400)};

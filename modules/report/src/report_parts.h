@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/common/large_correction.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/common/warning.h>
 #include <pcl_als/drawing/block_map.h>
@@ -27,9 +28,10 @@ std::string centimetres(double metres);
 
 void addVerdict(const Verdict& verdict, HtmlReport& report);
 /// A section with a map of strips, overlaps, areas and control, where there are any.
+/// \param corrections marked along the flight path by their numbers, from 1
 void addMap(const std::vector<ControlPoint>& control, const StripCoverage& coverage,
             const std::vector<std::string>& strips, const std::vector<SurveyArea>& areas,
-            HtmlReport& report);
+            HtmlReport& report, const std::vector<LargeCorrection>& corrections = {});
 void addWarnings(const Warnings& warnings, HtmlReport& report);
 /// Inputs (points, then those of the origin) with sizes and times, and all settings.
 void addOrigin(const ReportOrigin& origin, const std::vector<std::string>& inputs,

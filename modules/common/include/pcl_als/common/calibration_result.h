@@ -16,6 +16,7 @@
 #include <pcl_als/common/bias_prior.h>
 #include <pcl_als/common/calibration_verdict.h>
 #include <pcl_als/common/error_source.h>
+#include <pcl_als/common/large_correction.h>
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/common/recovered_attitude.h>
 #include <pcl_als/common/scan_planes.h>
@@ -209,9 +210,8 @@ struct SystemEstimate {
  * Part of it belongs to the instrument and applies to all of its flights: system_name, verdict,
  * attitude (its source), scan_planes, parameters, systems, channel_field, sources, source_scale,
  * correlation, prior, held_parameters, line_fit_half_width and error_levels. Part of it belongs to
- * the flight that was calibrated with: day, recovered_attitude, strip_errors and held. The rest
- * reports on the
- * calibration.
+ * the flight that was calibrated with: day, recovered_attitude, strip_errors, large_corrections and
+ * held. The rest reports on the calibration.
  */
 struct CalibrationResult {
   std::string system_name;     ///< of the instrument, with its serial number; empty: not known
@@ -255,8 +255,10 @@ struct CalibrationResult {
   std::vector<HeldSurface> held;                ///< what was held fixed
   std::vector<StripOffset> strip_offsets;       ///< of the strips that have pairs
   std::vector<StripErrors> strip_errors;        ///< of the strips that were calibrated with
-  std::optional<ErrorLevels> error_levels;      ///< as estimated; none: not known
-  std::vector<std::string> observability;  ///< what is weakly determined, why, and what would help
+  /// Where strip_errors are largest, by their effect on the ground; only what exceeds the ordinary.
+  std::vector<LargeCorrection> large_corrections;
+  std::optional<ErrorLevels> error_levels;  ///< as estimated; none: not known
+  std::vector<std::string> observability;   ///< what is weakly determined, why, and what would help
   Warnings warnings;
   std::vector<LeftOutPoints> left_out;  ///< points that took no part
   std::vector<std::string> inputs;

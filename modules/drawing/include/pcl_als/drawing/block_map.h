@@ -38,7 +38,7 @@ class StripCoverage {
 };
 
 /** \brief A map of a block: number of strips at each place, outlines of the strips with their
- * names, chosen areas, control points and flight paths.
+ * names, chosen areas, control points, flight paths and marked parts of them.
  */
 class BlockMap {
  public:
@@ -50,9 +50,21 @@ class BlockMap {
   struct Path {
     std::vector<Eigen::Vector2d> places, std;
   };
+  /// A straight part of a flight path that is named by a short label, such as a number.
+  struct Mark {
+    Eigen::Vector2d begin, end;  ///< metres, ground frame
+    std::string label;
+  };
   void setTitle(std::string title) { title_ = std::move(title); }
   void setAreas(std::vector<Area> areas) { areas_ = std::move(areas); }
   void setControl(std::vector<Eigen::Vector2d> points) { control_ = std::move(points); }
+
+  /// Parts that are marked, with what the legend calls them. Labels of marks at the same place are
+  /// joined.
+  void setMarks(std::vector<Mark> marks, std::string legend) {
+    marks_ = std::move(marks);
+    marks_legend_ = std::move(legend);
+  }
 
   /// Standard deviations are drawn as bars, enlarged by a factor, at some places of each path.
   void setPaths(std::vector<Path> paths, double enlargement) {
@@ -72,6 +84,8 @@ class BlockMap {
   std::vector<Area> areas_;
   std::vector<Eigen::Vector2d> control_;
   std::vector<Path> paths_;
+  std::vector<Mark> marks_;
+  std::string marks_legend_;
   double enlargement_ = 1.0;
 };
 
