@@ -123,6 +123,9 @@ CommandLine declare() {
                  {"week", "adjusted"}, "week");
   line.addFlag("truth_points",
                "extra bytes bias_x, bias_y, bias_z: effect of biases and errors on each point, m");
+  line.addFlag("true_surface",
+               "extra bytes error_x, error_y, error_z: each point minus that of the true surface, "
+               "m: biases, errors of the trajectory and noise");
   addPointOptions(line);
   return line;
 }
@@ -169,6 +172,7 @@ int simulate(const CommandLine& line) {
   files.adjusted_time = line.choice("time") == 1;
   files.compressed = line.choice("format") == 1;
   files.bias_columns = line.has("truth_points");
+  files.error_columns = line.has("true_surface");
   files.images = line.has("images");
   files.folder = line.text("output");
   simulateSurvey(options, line.text("noise"), files, line.threads(), progressOf(line));

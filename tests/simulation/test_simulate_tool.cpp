@@ -137,6 +137,24 @@ TEST(SimulateTool, BiasColumnsTakeTheBiasesOut) {
   EXPECT_GT(largest, 0.3);  // 90 arcsec at 1150 m are 0.5 m
 }
 
+TEST(SimulateTool, ErrorColumnsLeadToTheSurface) {
+  // Millimetre coordinates less the columns equal the run without biases and without noise.
+  const fs::path with = test::scratch("tool_erring"), without = test::scratch("tool_exact");
+  ASSERT_EQ(tiny(with, "-noise range -ins mems -truth_points -true_surface").status, 0);
+  ASSERT_EQ(tiny(without, "-noise none -bias none").status, 0);
+  const PointChunk wrong = allPoints(with / "strip1.las"),
+                   exact = allPoints(without / "strip1.las");
+  const auto error = extraColumn(LasFile(with / "strip1.las"), "error_y");
+  const auto bias = extraColumn(LasFile(with / "strip1.las"), "bias_y");
+  ASSERT_EQ(wrong.size(), exact.size());
+  double rest = 0.0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    ASSERT_NEAR(wrong.y[i] - error[i], exact.y[i], 0.00106);
+    rest = std::max(rest, std::abs(error[i] - bias[i]));
+  }
+  EXPECT_GT(rest, 0.05) << "errors of the trajectory: 4 cm, 90 arcsec at 1150 m";
+}
+
 TEST(SimulateTool, AdjustedTimeIsFlaggedAndShifted) {
   const fs::path week = test::scratch("tool_week"), adjusted = test::scratch("tool_adjusted");
   ASSERT_EQ(tiny(week).status, 0);
@@ -236,8 +254,8 @@ TEST(SimulateTool, HelpNamesEveryOption) {
   const ToolRun run = simulate("-h");
   EXPECT_EQ(run.status, 0);
   for (const char* option : {"output", "preset", "scale", "density", "seed", "noise", "bias",
-                             "vertical", "fov", "origin", "truth_points", "time", "error_process",
-                             "error", "scanner", "ins", "sessions", "height"})
+                             "vertical", "fov", "origin", "truth_points", "true_surface", "time",
+                             "error_process", "error", "scanner", "ins", "sessions", "height"})
     EXPECT_NE(run.output.find("--" + std::string(option)), std::string::npos) << option;
 }
 

@@ -39,15 +39,18 @@ LasWriterOptions lasOptionsOf(const SimulationOptions& options, std::uint16_t st
   reflectance.name = "reflectance";
   reflectance.description = "true, diffuse, at 1064 nm";
   las.extra_fields.push_back(reflectance);
-  if (!files.bias_columns) return las;
-  for (const char* name : {"bias_x", "bias_y", "bias_z"}) {
-    LasExtraField field;
-    field.name = name;
-    field.description = "written - without systematic errors";
-    field.type = LasExtraType::i32;
-    field.scale = 1e-4;
-    las.extra_fields.push_back(field);
-  }
+  const auto add = [&las](const char* prefix, const char* description) {
+    for (const char* axis : {"x", "y", "z"}) {
+      LasExtraField field;
+      field.name = std::string(prefix) + axis;
+      field.description = description;
+      field.type = LasExtraType::i32;
+      field.scale = 1e-4;
+      las.extra_fields.push_back(field);
+    }
+  };
+  if (files.bias_columns) add("bias_", "written - without systematic errors");
+  if (files.error_columns) add("error_", "written - true, noise included");
   return las;
 }
 
@@ -74,15 +77,22 @@ void fill(const std::vector<SimulatedPoint>& points, double time_shift, bool few
   }
 }
 
-void fill(const std::vector<SimulatedPoint>& points, Columns& columns) {
-  for (auto& column : columns) column.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    columns[0][i] = points[i].reflectance;
-    for (std::size_t axis = 1; axis < columns.size(); ++axis) {
-      const auto k = static_cast<Eigen::Index>(axis - 1);
-      columns[axis][i] = points[i].position[k] - points[i].unbiased[k];
+/// The extra bytes, in the order of lasOptionsOf().
+Columns columnsOf(const std::vector<SimulatedPoint>& points, const StripFileOptions& files) {
+  Columns columns(1);
+  for (const SimulatedPoint& p : points) columns[0].push_back(p.reflectance);
+  const auto add = [&](const auto& difference) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      columns.emplace_back();
+      for (const SimulatedPoint& p : points) columns.back().push_back(difference(p)[axis]);
     }
-  }
+  };
+  using Vector = Eigen::Vector3d;
+  if (files.bias_columns)
+    add([](const SimulatedPoint& p) -> Vector { return p.position - p.unbiased; });
+  if (files.error_columns)
+    add([](const SimulatedPoint& p) -> Vector { return p.position - p.surface; });
+  return columns;
 }
 
 /// printf of numbers into a line of a text file.
@@ -240,12 +250,10 @@ StripSummary writeStrip(const Simulator& simulator, std::size_t strip,
   LasWriter writer(options.folder / summary.file, lasOptionsOf(simulator.options(), id, options));
   const double shift = options.adjusted_time ? kSimulatedWeek * 604800.0 - 1e9 : 0.0;
   PointChunk chunk;
-  Columns extra(options.bias_columns ? 4 : 1);
   const double expected = static_cast<double>(summary.pulses) * 1.03;
   simulator.simulateStrip(strip, threads, [&](const std::vector<SimulatedPoint>& points) {
     fill(points, shift, simulator.options().scanner.channels <= 4, chunk);
-    fill(points, extra);
-    writer.append(chunk, extra);
+    writer.append(chunk, columnsOf(points, options));
     summary.points += points.size();
     progress(std::min(1.0, static_cast<double>(summary.points) / expected));
   });

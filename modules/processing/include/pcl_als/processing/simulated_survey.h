@@ -19,6 +19,7 @@ struct StripFileOptions {
   bool adjusted_time = false;  ///< adjusted standard GPS time, else seconds of the week
   bool compressed = false;     ///< .laz
   bool bias_columns = false;   ///< extra bytes with the effect of the biases
+  bool error_columns = false;  ///< extra bytes with the whole error, noise included
   bool images = false;         ///< images of the block, in the folder images
 
   std::string nameOf(std::uint16_t strip) const {
