@@ -129,13 +129,15 @@ def compare(one, other):
 
 
 def checked(tool, points, chosen, scratch):
+    """The pair of the two strips in a half; None where there is no such pair."""
+    strips = {str(source) for source in numpy.unique(points.records["source"][chosen])}
     result = scratch / "half.json"
     result.unlink(missing_ok=True)
     points.write(scratch / "half.las", chosen)
     subprocess.run([tool, scratch / "half.las", "-output", result, "-quiet"],
                    stderr=subprocess.DEVNULL, check=False)
     pairs = json.loads(result.read_text())["pairs"] if result.exists() else []
-    return pairs[0] if pairs else None
+    return next((pair for pair in pairs if {pair["a"], pair["b"]} == strips), None)
 
 
 def main():
