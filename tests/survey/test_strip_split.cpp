@@ -238,6 +238,20 @@ TEST(LeadBack, ALineThatContinuesIsNot) {
   EXPECT_FALSE(leadsBack(bend));
 }
 
+// A conical scanner measures a small area ahead of the sensor and, 1.2 s later, again behind it: no
+// platform turns back at 60 m/s in that time, nor in the 9.4 s of a half circle at 20 m/s^2.
+TEST(LeadBack, TwoLooksAtASmallAreaAreNot) {
+  for (const double gap : {1.2, 9.0, 9.8}) {
+    PointChunk chunk;
+    const double again = 101.5 + gap;
+    test::scan(chunk, 5, test::straight({0.0, 0.0}, 30.0, 100.0), 100.0, 101.5);
+    test::scan(chunk, 5, test::straight({0.0, 0.0}, 30.0, again), again, again + 1.5);
+    std::vector<TimeStretch> stretches{{100.0, 101.5, {}}, {again, again + 1.5, {}}};
+    EXPECT_EQ(leadBack(trackOf(chunk), stretches), gap > 9.5) << gap;
+    if (gap < 2.0) EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 2U);
+  }
+}
+
 TEST(LeadBack, APlatformThatMostlyHoversHasNoCertainLines) {
   PointChunk chunk;
   test::scan(chunk, 5, byVelocity([](double t) {

@@ -35,6 +35,7 @@ constexpr double kOpposite = 135.0 * kRadiansPerDegree;  // between lines that a
 constexpr double kEndOfLine = 4.0;  // s at an end of a line that show its course there
 constexpr double kBehind = 0.5;     // cosine: more than 120 degrees from ahead
 constexpr double kAcross = 45.0 * kRadiansPerDegree;  // between these and the passage
+constexpr double kSharpest = 20.0;  // m/s^2, twice gravity: acceleration that no platform exceeds
 
 /// Divides the bins of one track.
 class Division {
@@ -243,9 +244,11 @@ std::vector<TimeStretch> Division::stretches() const {
   return found;
 }
 
-/// Where a line begins and ends, and its courses there.
+/// Where and when a line begins and ends, its courses there and its mean speed.
 struct LineEnds {
   Vector2d start, end, first_course, last_course;
+  double from, to;  ///< seconds
+  double speed;  ///< m/s
 };
 
 Vector2d meanOf(const Bins& bins, std::size_t from, std::size_t to) {
@@ -268,10 +271,18 @@ std::optional<LineEnds> endsOf(const Bins& all, const TimeStretch& line) {
   const std::size_t b = std::min(count - 1, tail + (count - tail) / 2);
   return LineEnds{bins.front().mean(), bins.back().mean(),
                   meanOf(bins, a, head + 1) - meanOf(bins, 0, a),
-                  meanOf(bins, b, count) - meanOf(bins, tail - 1, b)};
+                  meanOf(bins, b, count) - meanOf(bins, tail - 1, b),
+                  bins.front().first,
+                  bins.back().last,
+                  (bins.back().mean() - bins.front().mean()).norm() /
+                      (bins.back().middle() - bins.front().middle())};
 }
 
+/// In less time than a half turn takes, no platform comes back: a conical scanner or one of several
+/// planes measures a small area ahead of the sensor and, after a gap, again behind it.
 bool leadsBack(const LineEnds& before, const LineEnds& after) {
+  const double half_turn = kPi * std::max(before.speed, after.speed) / kSharpest;
+  if (after.from - before.to < half_turn) return false;
   const Vector2d gap = after.start - before.end;
   return std::abs(turned(before.last_course, after.first_course)) > kOpposite ||
          gap.dot(before.last_course) < -kBehind * gap.norm() * before.last_course.norm();
