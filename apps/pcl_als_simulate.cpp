@@ -69,6 +69,15 @@ void addPointOptions(CommandLine& line) {
   line.addChoice("format", "format of the strips", {"las", "laz"}, "las");
 }
 
+/// What is known of each point of a simulation.
+void declareTruth(CommandLine& line) {
+  line.addFlag("truth_points",
+               "extra bytes bias_x, bias_y, bias_z: effect of biases and errors on each point, m");
+  line.addFlag("true_surface",
+               "extra bytes error_x, error_y, error_z: each point minus that of the true surface, "
+               "m: biases, errors of the trajectory and noise");
+}
+
 CommandLine declare() {
   CommandLine line("pcl_als_simulate",
                    "simulates an airborne laser scanning block with known system biases.",
@@ -121,11 +130,7 @@ CommandLine declare() {
                  "times of the points: week (seconds) or adjusted (standard GPS time); the "
                  "trajectory has seconds of the week",
                  {"week", "adjusted"}, "week");
-  line.addFlag("truth_points",
-               "extra bytes bias_x, bias_y, bias_z: effect of biases and errors on each point, m");
-  line.addFlag("true_surface",
-               "extra bytes error_x, error_y, error_z: each point minus that of the true surface, "
-               "m: biases, errors of the trajectory and noise");
+  declareTruth(line);
   addPointOptions(line);
   return line;
 }

@@ -75,7 +75,7 @@ void EliminateSharedErrors(benchmark::State& state) {
   for (auto _ : state) {
     Adjustment adjustment(errors);
     adjustment.accumulate(areas, weights);
-    benchmark::DoNotOptimize(adjustment.reducedNormal());
+    benchmark::DoNotOptimize(adjustment.normalOf({SystemParameter::boresight_roll}));
   }
   state.counters["knots"] = errors.knotCount();
 }

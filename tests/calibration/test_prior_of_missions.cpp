@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/distributions.h>
+#include <pcl_als/history/calibration_history.h>
 #include <pcl_als/io/prior_file.h>
 
 #include "simulated_survey.h"
@@ -74,19 +75,28 @@ struct Sums {
   int inside = 0;
 };
 
+/// Ten calibration flights of the system, combined.
+BiasPrior priorOfHistory() {
+  std::vector<CalibrationMission> missions;
+  CalibrationResult newest;
+  for (int flight = 0; flight < kFlights; ++flight) {
+    newest = test::SimulatedSurvey(fullFlight(100 + flight)).calibrate(settingsOf(), true, true);
+    EXPECT_TRUE(newest.verdict.usable()) << newest.verdict.text();
+    missions.push_back(missionOf(newest, "flight " + std::to_string(flight)));
+  }
+  return priorFrom(pooledInstrument(calibrationHistory(std::move(missions)), newest));
+}
+
 TEST(PriorOfMissions, GivesACorridorItsLeverArmAndPitch) {
   const std::vector<P> weak{P::lever_arm_x, P::lever_arm_y, P::boresight_pitch};
   std::map<P, Sums> sums;
+  const BiasPrior prior = priorOfHistory();
   for (int flight = 0; flight < kFlights; ++flight) {
-    const CalibrationResult calibration =
-        test::SimulatedSurvey(fullFlight(100 + flight)).calibrate(settingsOf(), true, true);
-    ASSERT_TRUE(calibration.verdict.usable()) << calibration.verdict.text();
     SimulationOptions options = corridor(200 + flight);
     change(options.bias, flight);
     const test::SimulatedSurvey survey(options);
     const CalibrationResult without = survey.calibrate(settingsOf(), false, true);
-    const CalibrationResult with =
-        survey.calibrate(settingsOf(priorFrom(calibration)), false, true);
+    const CalibrationResult with = survey.calibrate(settingsOf(prior), false, true);
     for (const P p : weak) {
       const double truth = survey.bias[indexOf(p)];
       Sums& sum = sums[p];

@@ -26,8 +26,9 @@ constexpr double kArcsec = kRadiansPerArcsec;
 CalibrationResult calibration() {
   CalibrationResult result;
   result.attitude = AttitudeSource::trajectory;
-  result[P::lever_arm_y] = {0.05, 0.004, 0.001, ParameterStatus::estimated};
-  result[P::boresight_pitch] = {20.0 * kArcsec, 3.0 * kArcsec, kArcsec, ParameterStatus::estimated};
+  result[P::lever_arm_y] = {0.05, 0.004, 0.001, ParameterStatus::estimated, {}};
+  result[P::boresight_pitch] = {
+      20.0 * kArcsec, 3.0 * kArcsec, kArcsec, ParameterStatus::estimated, {}};
   result.correlation_order = {P::lever_arm_y, P::boresight_pitch};
   result.correlation = Eigen::Matrix2d{{1.0, 0.5}, {0.5, 1.0}};
   return result;
@@ -56,9 +57,9 @@ class PriorFileTest : public testing::Test {
 
 void expectCovariance(const BiasPrior& prior, double y, double pitch) {
   const SystemMatrix covariance = prior.covariance();
-  EXPECT_NEAR(covariance(1, 1), y * y, 1e-9 * y * y);
-  EXPECT_NEAR(covariance(3, 3), std::pow(pitch * kArcsec, 2), 1e-9 * std::pow(pitch * kArcsec, 2));
-  EXPECT_NEAR(covariance(1, 3), 0.5 * 0.004 * 3.0 * kArcsec, 1e-9 * 0.004 * kArcsec);
+  EXPECT_NEAR(covariance(1, 1), y * y, 1e-7 * y * y);
+  EXPECT_NEAR(covariance(3, 3), std::pow(pitch * kArcsec, 2), 1e-7 * std::pow(pitch * kArcsec, 2));
+  EXPECT_NEAR(covariance(1, 3), 0.5 * 0.004 * 3.0 * kArcsec, 1e-7 * 0.004 * kArcsec);
   EXPECT_NEAR(prior.mean[1], 0.05, 1e-12);
   EXPECT_NEAR(prior.mean[3], 20.0 * kArcsec, 1e-12);
   EXPECT_EQ(prior.known(), (std::vector<P>{P::lever_arm_y, P::boresight_pitch}));
@@ -99,7 +100,8 @@ TEST_F(PriorFileTest, WhatIsNoPriorIsRefused) {
             std::string::npos);
   CalibrationResult wrong = calibration();
   wrong.correlation(0, 1) = wrong.correlation(1, 0) = 2.0;
-  EXPECT_EQ(refusal(calibrationJson(wrong)).find("accepted"), std::string::npos);
+  EXPECT_NE(refusal(calibrationJson(wrong)).find("correlation matrix is not positive definite"),
+            std::string::npos);
   wrong = calibration();
   wrong[P::lever_arm_y].std = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(refusal(calibrationJson(wrong)).find("standard deviation of lever_arm_y is not known"),

@@ -77,7 +77,7 @@ class SmallBlock(Scratch):
     def test_run(self):
         done = subprocess.run(
             [sys.executable, "-B", str(FOLDER / "run.py"), str(self.folder), "--tools", str(TOOLS),
-             "--only", "aeroplane", "--thin", "0.15", "--methods",
+             "--only", "aeroplane", "--thin", "0.3", "--methods",
              "nothing,pcl_als,pcl_als_strips"],
             capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

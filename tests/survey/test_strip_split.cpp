@@ -248,7 +248,9 @@ TEST(LeadBack, TwoLooksAtASmallAreaAreNot) {
     test::scan(chunk, 5, test::straight({0.0, 0.0}, 30.0, again), again, again + 1.5);
     std::vector<TimeStretch> stretches{{100.0, 101.5, {}}, {again, again + 1.5, {}}};
     EXPECT_EQ(leadBack(trackOf(chunk), stretches), gap > 9.5) << gap;
-    if (gap < 2.0) EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 2U);
+    if (gap < 2.0) {
+      EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 2U);
+    }
   }
 }
 

@@ -12,8 +12,9 @@ namespace {
 
 // A false alarm costs a flight that determines little what is known of a parameter.
 constexpr double kSignificance = 0.01;  // of all parameters together, two-sided
-// Of the prior's information: less than this, and the observations say nothing of the parameter.
-constexpr double kLeastInformation = 1e-9;
+// Of the information of the prior: where the observations add less than this share, their standard
+// deviation is ten times that of the prior, and they say nothing of a change.
+constexpr double kLeastInformation = 0.01;
 
 /// The matrices of priorDifferences().
 struct Comparison {

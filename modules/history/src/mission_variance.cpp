@@ -12,8 +12,6 @@
 namespace pcl_als::detail {
 namespace {
 
-constexpr std::size_t kFewestMissions = 3;  // two give no residual variance worth a statement
-
 /// Root of the mean information of a mission on a parameter, inverse: a typical standard deviation.
 double typicalStd(const std::vector<CalibrationMission>& missions, int parameter) {
   double sum = 0.0;
@@ -90,7 +88,8 @@ SystemVector changeStdByReml(const std::vector<CalibrationMission>& missions,
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     double largest = 0.0;
     for (int p = 0; p < kSystemParameterCount; ++p) {
-      if (!std::isnan(known[p]) || countOf(missions, p) < kFewestMissions) continue;
+      if (!std::isnan(known[p]) || countOf(missions, p) < CalibrationHistory::kFewestForChange)
+        continue;
       const double before = std[p];
       std[p] = mostLikelyChange(missions, p, std, terms, true).std;
       largest = std::max(largest, std::abs(std[p] - before) / std::max({std[p], before, 1e-300}));

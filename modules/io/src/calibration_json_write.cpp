@@ -249,7 +249,7 @@ Json flightJson(const CalibrationResult& result) {
   Json part;
   if (result.day) part["date"] = dateText(*result.day);
   part["strip_corrections"] = stripErrorsOf(result);
-  part["large_corrections"] = largeCorrectionsOf(result);
+  if (!result.large_corrections.empty()) part["large_corrections"] = largeCorrectionsOf(result);
   if (!result.recovered_attitude.empty()) part["recovered_attitude"] = recoveredAttitudeOf(result);
   if (!result.held.empty()) part["held"] = heldOf(result);
   return part;

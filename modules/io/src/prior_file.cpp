@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 
+#include <Eigen/Cholesky>
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/errors.h>
@@ -53,6 +54,10 @@ Eigen::MatrixXd covarianceOf(const PriorFile& file) {
       throw InputError(file.name + ": the standard deviation of " +
                        std::string(infoOf(order[i]).name) + " is not known");
   }
+  // Changes would hide correlations that cannot be.
+  if (!(file.earlier.correlation.allFinite() &&
+        file.earlier.correlation.llt().info() == Eigen::Success))
+    throw InputError(file.name + ": the correlation matrix is not positive definite");
   Eigen::MatrixXd covariance = std.asDiagonal() * file.earlier.correlation * std.asDiagonal();
   covariance.diagonal() += change.cwiseAbs2();
   return covariance;

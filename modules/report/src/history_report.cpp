@@ -184,7 +184,10 @@ std::string historyJson(const HistoryReport& report) {
   for (const SystemParameterInfo& info : systemParameters()) {
     if (!history.knows(info.parameter)) continue;
     const std::string name(info.name);
-    change[name] = history[info.parameter].change_std / info.internal_per_unit;
+    // A zero from fewer missions is no estimate.
+    const ParameterHistory& parameter = history[info.parameter];
+    if (parameter.change_std > 0.0 || parameter.missions >= CalibrationHistory::kFewestForChange)
+      change[name] = parameter.change_std / info.internal_per_unit;
     parameters[name] = parameterJson(history, info);
   }
   json["changes"] = Json::array();

@@ -62,12 +62,13 @@ SystemBiases biasesOfSystem(const CalibrationResult& calibration, const std::str
   return chosen;
 }
 
-bool isEstimated(const MountingReport& report, SystemParameter first) {
+/// Whether the calibration says nothing of three parameters.
+bool isUntouched(const MountingReport& report, SystemParameter first) {
   for (int i = 0; i < 3; ++i) {
-    if (report.parameters[std::size_t(indexOf(first) + i)].status == ParameterStatus::estimated)
-      return true;
+    const ParameterEstimate& estimate = report.parameters[std::size_t(indexOf(first) + i)];
+    if (estimate.status == ParameterStatus::estimated || estimate.bias != 0.0) return false;
   }
-  return false;
+  return true;
 }
 
 void remarkOnAngles(MountingReport& report) {
@@ -82,7 +83,7 @@ void remarkOnAngles(MountingReport& report) {
         "near gimbal lock: the first and the third angle have standard deviations %.0f times those "
         "of the rotation, and change together; type in all three with all digits",
         1.0 / sine));
-  if (!isEstimated(report, SystemParameter::boresight_pitch))
+  if (isUntouched(report, SystemParameter::boresight_pitch))
     report.remarks.push_back("no boresight angle was estimated: the rotation is unchanged");
 }
 
@@ -97,7 +98,7 @@ void remarkOnLeverArm(MountingReport& report) {
                 mountingFrame(report.input.convention, report.correction.before)
                     .body_from_scanner.transpose())
                 .angle()));
-  } else if (!isEstimated(report, SystemParameter::lever_arm_x) &&
+  } else if (isUntouched(report, SystemParameter::lever_arm_x) &&
              report.correction.kept_lever > kNoticeableShift) {
     report.remarks.push_back(formatted(
         "the lever arm was not estimated: it is only turned with the scanner about the origin of "

@@ -26,9 +26,15 @@ std::string deviationText(double value, int digits) {
   return std::isfinite(value) ? formatted("%12.*f", digits, value) : formatted("%12s", "-");
 }
 
+/// Without the sign of a zero that has come from rounding.
+double rounded(double value, int digits) {
+  return std::abs(value) < 0.5 * std::pow(10.0, -digits) ? 0.0 : value;
+}
+
 std::string valueRow(const std::string& name, double before, double after, double std, int digits,
                      const std::string& unit) {
-  return formatted("| %-13s | %15.*f | %15.*f | ", name.c_str(), digits, before, digits, after) +
+  return formatted("| %-13s | %15.*f | %15.*f | ", name.c_str(), digits, rounded(before, digits),
+                   digits, rounded(after, digits)) +
          deviationText(std, digits) + formatted(" | %-6s |\n", unit.c_str());
 }
 
@@ -48,7 +54,7 @@ std::string valueTable(const MountingReport& report) {
                 ? valueRow(name, correction.before.lever_arm[i], correction.after.lever_arm[i],
                            correction.std(3 + i), 4, "m")
                 : formatted("| %-13s | %15s | %+15.4f | ", name.c_str(), "(add)",
-                            correction.after.lever_arm[i]) +
+                            rounded(correction.after.lever_arm[i], 4)) +
                       deviationText(correction.std(3 + i), 4) + " | m      |\n";
   }
   return text;
@@ -74,8 +80,9 @@ std::string matrixText(const MountingReport& report) {
   std::string text =
       "Matrix of the new rotation, scanner to body (axes " + report.input.convention.axes + ")\n";
   for (int r = 0; r < 3; ++r)
-    text += formatted("  %14.10f %14.10f %14.10f\n", report.correction.matrix(r, 0),
-                      report.correction.matrix(r, 1), report.correction.matrix(r, 2));
+    text += formatted("  %14.10f %14.10f %14.10f\n", rounded(report.correction.matrix(r, 0), 10),
+                      rounded(report.correction.matrix(r, 1), 10),
+                      rounded(report.correction.matrix(r, 2), 10));
   return text;
 }
 

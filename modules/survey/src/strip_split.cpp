@@ -248,7 +248,7 @@ std::vector<TimeStretch> Division::stretches() const {
 struct LineEnds {
   Vector2d start, end, first_course, last_course;
   double from, to;  ///< seconds
-  double speed;  ///< m/s
+  double speed;     ///< m/s
 };
 
 Vector2d meanOf(const Bins& bins, std::size_t from, std::size_t to) {
@@ -269,7 +269,8 @@ std::optional<LineEnds> endsOf(const Bins& all, const TimeStretch& line) {
   while (tail > 1 && bins[tail].first > bins.back().last - kEndOfLine) --tail;
   const std::size_t a = std::max<std::size_t>(1, head / 2);
   const std::size_t b = std::min(count - 1, tail + (count - tail) / 2);
-  return LineEnds{bins.front().mean(), bins.back().mean(),
+  return LineEnds{bins.front().mean(),
+                  bins.back().mean(),
                   meanOf(bins, a, head + 1) - meanOf(bins, 0, a),
                   meanOf(bins, b, count) - meanOf(bins, tail - 1, b),
                   bins.front().first,

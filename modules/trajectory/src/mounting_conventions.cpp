@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <utility>
+
 #include <pcl_als/trajectory/mounting_convention.h>
 
 namespace pcl_als {
 namespace {
 
-std::vector<MountingConvention> documentedConventions() {
+/// Of aircraft, and of the manufacturers of GNSS/INS that follow them.
+std::vector<MountingConvention> conventionsOfNavigation() {
   MountingConvention aerospace;
   aerospace.name = "zyx_frd";
   aerospace.use = "aerospace: yaw, pitch, roll about moving axes, body forward, right, down";
@@ -32,12 +35,17 @@ std::vector<MountingConvention> documentedConventions() {
   novatel.product = {2, 0, 1};
   novatel.axes = "rfu";
 
+  return {aerospace, applanix, novatel};
+}
+
+/// Of robotics and photogrammetry, and that of this library.
+std::vector<MountingConvention> otherConventions() {
   MountingConvention ros;
   ros.name = "ros";
   ros.use = "ROS: rpy and xyz of an origin in URDF, body forward, left, up";
   ros.source = "ROS REP 103; wiki.ros.org/urdf/XML/joint, element origin";
-  ros.angles = aerospace.angles;
-  ros.product = aerospace.product;
+  ros.angles = {{{"roll", 'x'}, {"pitch", 'y'}, {"yaw", 'z'}}};
+  ros.product = {2, 1, 0};
   ros.axes = "flu";
   ros.unit = "rad";
 
@@ -65,7 +73,14 @@ std::vector<MountingConvention> documentedConventions() {
   own.axes = "rfu";
   own.unit = "arcsec";
 
-  return {aerospace, applanix, novatel, ros, mrpt, photogrammetric, own};
+  return {ros, mrpt, photogrammetric, own};
+}
+
+std::vector<MountingConvention> documentedConventions() {
+  std::vector<MountingConvention> conventions = conventionsOfNavigation();
+  for (MountingConvention& convention : otherConventions())
+    conventions.push_back(std::move(convention));
+  return conventions;
 }
 
 std::string sequenceOf(const MountingConvention& convention) {

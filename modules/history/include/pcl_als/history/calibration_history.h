@@ -92,6 +92,10 @@ struct HistoryOptions {
  * height offset, its trajectory errors) are contained in the covariance of that mission.
  */
 struct CalibrationHistory {
+  /// Missions that the standard deviation of changes is estimated from at least: two have one
+  /// degree of freedom.
+  static constexpr std::size_t kFewestForChange = 3;
+
   std::vector<CalibrationMission> missions;  ///< in the order of their dates
   bool dated = false;                        ///< all missions have a date
   std::array<ParameterHistory, kSystemParameterCount> parameters;

@@ -24,7 +24,7 @@ struct QualityTable {
   std::string caption;  ///< its content, with units
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
-  std::vector<std::size_t> failed;  ///< rows that do not keep the required quality level
+  std::vector<std::size_t> failed = {};  ///< rows that do not keep the required quality level
 };
 /// Heights, movements, shifts, trends, and control where it was given.
 std::vector<QualityTable> qualityTables(const QualityReport& report);
