@@ -25,8 +25,8 @@ foreach(page IN LISTS pages ITEMS README.md CHANGELOG.md LICENSE)
   get_filename_component(folder ${page} DIRECTORY)
   install(FILES ${page} DESTINATION ${PCL_ALS_MANUAL_DIR}/${folder} COMPONENT documentation)
 endforeach()
-install(DIRECTORY share/examples DESTINATION ${PCL_ALS_MANUAL_DIR}/share COMPONENT documentation
-  REGEX "\\.(sh|py)$" PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
-  WORLD_READ WORLD_EXECUTE)
+install(DIRECTORY share/examples share/benchmark DESTINATION ${PCL_ALS_MANUAL_DIR}/share
+  COMPONENT documentation
+  USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/html DESTINATION ${PCL_ALS_MANUAL_DIR}
   COMPONENT documentation OPTIONAL)
