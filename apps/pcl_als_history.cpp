@@ -2,13 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <iostream>
 
-#include <pcl_als/common/bias_list.h>
-#include <pcl_als/common/number_text.h>
 #include <pcl_als/history/history_files.h>
 #include <pcl_als/report/history_report.h>
 
 #include "command_line.h"
 #include "flight_options.h"
+#include "prior_options.h"
 #include "report_options.h"
 
 namespace pcl_als::app {
@@ -48,7 +47,7 @@ CommandLine commandLine() {
 /// Standard deviations of changes; NaN for parameters that the text does not name.
 SystemVector changesIn(const std::string& text) {
   SystemVector std = HistoryOptions().change_std;
-  setBiases(text, std);
+  setChanges(text, std);
   return std;
 }
 

@@ -106,16 +106,19 @@ void addForceOption(CommandLine& line, const std::string& reason) {
   line.addFlag("force", "continue with a warning where " + reason + "; results may be wrong");
 }
 
+void requireUsable(const CommandLine& line, const std::string& file,
+                   const CalibrationVerdict& verdict, const CalibrationUse& use) {
+  if (verdict.usable()) return;
+  if (!line.has("force"))
+    throw InputError(file + ": this calibration should not be " + use.passive + ", " +
+                     verdict.text() + "; -force " + use.active + " it all the same");
+  std::cerr << line.tool() << ": warning: " << file << ": " << verdict.text() << std::endl;
+}
+
 CalibrationResult usableCalibration(const CommandLine& line) {
   const std::string file = line.text("calibration");
   CalibrationResult calibration = readCalibration(file);
-  const CalibrationVerdict& verdict = calibration.verdict;
-  if (verdict.usable()) return calibration;
-  if (!line.has("force")) {
-    throw InputError(file + ": this calibration should not be applied, " + verdict.text() +
-                     "; -force applies it all the same");
-  }
-  std::cerr << line.tool() << ": warning: " << file << ": " << verdict.text() << std::endl;
+  requireUsable(line, file, calibration.verdict, {"applied", "applies"});
   return calibration;
 }
 

@@ -30,6 +30,13 @@ std::optional<int> gpsWeek(const CommandLine& line);
 /// -force: continue with a warning where the tool refuses because of \a reason.
 void addForceOption(CommandLine& line, const std::string& reason = "inputs do not belong together");
 
+/// "applied", "applies"
+struct CalibrationUse {
+  const char *passive, *active;
+};
+/// Refuses a calibration that its verdict says not to use; with -force there is a warning instead.
+void requireUsable(const CommandLine& line, const std::string& file,
+                   const CalibrationVerdict& verdict, const CalibrationUse& use);
 /// The calibration of -calibration. InputError for one whose verdict is not usable; with -force a
 /// warning on stderr.
 CalibrationResult usableCalibration(const CommandLine& line);

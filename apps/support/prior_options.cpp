@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/errors.h>
+
+#include "flight_options.h"
 
 namespace pcl_als::app {
 namespace {
@@ -25,24 +26,6 @@ std::vector<fs::path> priorFiles(const CommandLine& line) {
   return {line.text("prior")};
 }
 
-/// Replaces the changes between missions that a text names.
-void setChanges(std::string_view text, SystemVector& change_std) {
-  setBiases(text, change_std);
-  for (const SystemParameterInfo& info : systemParameters())
-    if (change_std[indexOf(info.parameter)] < 0.0)
-      throw UsageError(std::string(info.name) + ": a standard deviation must not be negative");
-}
-
-/// Only a calibration that should be applied is a prior, unless -force.
-void requireUsable(const CommandLine& line, const PriorFile& file) {
-  const CalibrationVerdict& verdict = file.earlier.verdict;
-  if (verdict.usable()) return;
-  if (!line.has("force"))
-    throw InputError(file.name + ": this calibration should not be used as a prior, " +
-                     verdict.text() + "; -force uses it all the same");
-  std::cerr << "pcl_als_calibrate: warning: " << file.name << ": " << verdict.text() << std::endl;
-}
-
 bool isSameStrip(const StripErrors& one, const StripErrors& other) {
   constexpr double kEqual = 0.5;  // seconds
   return !one.knots.empty() && !other.knots.empty() &&
@@ -51,6 +34,13 @@ bool isSameStrip(const StripErrors& one, const StripErrors& other) {
 }
 
 }  // namespace
+
+void setChanges(std::string_view text, SystemVector& change_std) {
+  setBiases(text, change_std);
+  for (const SystemParameterInfo& info : systemParameters())
+    if (change_std[indexOf(info.parameter)] < 0.0)
+      throw UsageError(std::string(info.name) + ": a standard deviation must not be negative");
+}
 
 void addPriorOptions(CommandLine& line) {
   line.addInputFile("prior",
@@ -76,7 +66,7 @@ GivenPrior::GivenPrior(const CommandLine& line, CalibrationSettings& settings) {
     return;
   }
   file_ = readPriorFile(text);
-  requireUsable(line, *file_);
+  requireUsable(line, file_->name, file_->earlier.verdict, {"used as a prior", "uses"});
   if (!file_->earlier.systems.empty() && settings.systems.empty())
     throw InputError(file_->name +
                      ": has several systems, and this block is calibrated as one; "

@@ -12,6 +12,10 @@
 
 namespace pcl_als::app {
 
+/// Replaces the standard deviations of changes between missions that a text names, such as
+/// "boresight_roll=2,lever_arm_x=0.005" (m, arcsec, 1). UsageError for a negative one.
+void setChanges(std::string_view text, SystemVector& change_std);
+
 /// -prior: values in the command, or a calibration.json or history.json; and -prior_change.
 void addPriorOptions(CommandLine& line);
 

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <gtest/gtest.h>
 
+#include <pcl_als/common/parameter_text.h>
+
 #include "parameter_choice.h"
 #include "simulated_observations.h"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/drawing/block_map.h>
 #include <pcl_als/drawing/calibration_plots.h>
 

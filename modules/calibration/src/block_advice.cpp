@@ -11,6 +11,7 @@
 
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/text_values.h>
 
@@ -28,11 +29,6 @@ constexpr std::size_t kAdviceInText = 6;  // entries in the text; the report con
 constexpr std::size_t kDirectionsInText = 2;
 constexpr double kAccurate = 0.01;  // metres on the ground: needs no improvement
 
-std::string valueOf(P p, double value) {
-  const std::string text = inUnit(p, value);
-  return text.substr(0, text.find(' '));
-}
-
 /// "reduce the std of boresight_pitch from 12 to 3 arcsec, determine …"; best first.
 std::string effectOf(const SystemVector& before, const SystemVector& after,
                      const BlockAdjustment& now, const BlockAdjustment& then) {
@@ -49,7 +45,7 @@ std::string effectOf(const SystemVector& before, const SystemVector& after,
     } else {
       effects.emplace_back(to / from, "reduce the std of " + name +
                                           (then.determines(p) ? "" : ", still not determined,") +
-                                          " from " + valueOf(p, from) + " to " + inUnit(p, to));
+                                          " from " + shortValue(p, from) + " to " + inUnit(p, to));
     }
   }
   std::sort(effects.begin(), effects.end());

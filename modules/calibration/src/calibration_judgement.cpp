@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include <pcl_als/common/linear_solvers.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
 namespace pcl_als {
@@ -106,12 +107,7 @@ void warnOfIneffectiveBiases(CalibrationResult& result) {
 
 /// "-88 +- 106 arcsec"
 std::string valueText(SystemParameter p, const ParameterEstimate& estimate) {
-  const SystemParameterInfo& info = infoOf(p);
-  char text[96];
-  std::snprintf(text, sizeof text, "%.3g +- %.3g%s%s", estimate.bias / info.internal_per_unit,
-                estimate.std / info.internal_per_unit, info.unit == "1" ? "" : " ",
-                info.unit == "1" ? "" : std::string(info.unit).c_str());
-  return text;
+  return shortValue(p, estimate.bias) + " +- " + inUnit(p, estimate.std);
 }
 
 /// Why an estimate tells nothing; empty where it does.

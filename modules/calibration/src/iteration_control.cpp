@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include <pcl_als/common/parameter_text.h>
+
 namespace pcl_als {
 namespace {
 

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include <pcl_als/common/linear_solvers.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
 #include "parameter_choice.h"

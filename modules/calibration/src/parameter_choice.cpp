@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <pcl_als/common/linear_solvers.h>
+#include <pcl_als/common/parameter_text.h>
 
 namespace pcl_als {
 namespace {
@@ -200,15 +201,6 @@ DeterminationLimits DeterminationLimits::atHeight(double height) const {
 double DeterminationLimits::whenHeld(SystemParameter p) const {
   const bool is_lever_arm = indexOf(p) <= indexOf(P::lever_arm_z);
   return is_lever_arm ? 0.05 : 2.0 * of(p);
-}
-
-std::string inUnit(SystemParameter parameter, double value) {
-  const SystemParameterInfo& info = infoOf(parameter);
-  std::ostringstream text;
-  text.precision(3);
-  text << value / info.internal_per_unit;
-  if (info.unit != "1") text << ' ' << info.unit;
-  return text.str();
 }
 
 ParameterChoice chooseParameters(const Adjustment& adjustment,

@@ -48,7 +48,4 @@ std::vector<SystemParameter> automaticParameters(bool with_control,
 void reportParameters(const ParameterChoice& choice, const std::vector<SystemParameter>& requested,
                       CalibrationResult& result);
 
-/// "0.35 m", "12.4 arcsec", "0.00031": a value of a parameter in its interface unit.
-std::string inUnit(SystemParameter parameter, double value);
-
 }  // namespace pcl_als

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <pcl_als/common/distributions.h>
+#include <pcl_als/common/parameter_text.h>
 
 namespace pcl_als {
 namespace {

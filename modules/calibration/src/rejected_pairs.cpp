@@ -10,8 +10,8 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kEnough = 50;  // pairs of a strip in a second
-constexpr int kReweightings = 4;     // without rejection
+constexpr std::size_t kFewestPairs = 50;  // pairs of a strip in a second
+constexpr int kReweightings = 4;          // without rejection
 
 struct Count {
   std::size_t all = 0, lost = 0;
@@ -39,7 +39,7 @@ bool areRejectedTogether(const PairSet& pairs, const std::vector<std::vector<dou
   for (const AreaObservations& area : pairs.far)
     for (const PairObservation& o : area) add(o, true, counts);
   return std::any_of(counts.begin(), counts.end(), [](const auto& entry) {
-    return entry.second.all >= kEnough && 2 * entry.second.lost > entry.second.all;
+    return entry.second.all >= kFewestPairs && 2 * entry.second.lost > entry.second.all;
   });
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/common/parameter_text.h>
 
 #include "angle_curve.h"
 #include "error_diagnosis.h"
@@ -80,10 +81,7 @@ double overall(const CalibrationResult& result, double PairFit::*rms) {
 
 /// "+0.0512 m", "-12.3 arcsec", "+0.00012"
 std::string valueText(SystemParameter parameter, double value) {
-  char text[48];
-  const SystemParameterInfo& info = infoOf(parameter);
-  std::snprintf(text, sizeof text, "%+.3g", value / info.internal_per_unit);
-  return info.unit == "1" ? text : std::string(text) + " " + std::string(info.unit);
+  return (value < 0.0 ? "" : "+") + inUnit(parameter, value);
 }
 
 /// Names the affected parameters, largest change first, and sets their reasons; empty without any.

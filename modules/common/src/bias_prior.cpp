@@ -28,17 +28,6 @@ SystemMatrix embedded(const Eigen::MatrixXd& part, const std::vector<SystemParam
   return matrix;
 }
 
-/// Of a positive definite matrix whose rows have different units; empty where it is not.
-Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& matrix) {
-  constexpr double kSingular = 1e-12;  // of a matrix with unit diagonal
-  if (!matrix.allFinite() || !(matrix.diagonal().array() > 0.0).all()) return {};
-  const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-  const LdltFactor factor(scale.asDiagonal() * matrix * scale.asDiagonal());
-  if (!factor.succeeded() || !(factor.diagonal().minCoeff() > kSingular)) return {};
-  const Eigen::MatrixXd inverse = scale.asDiagonal() * factor.inverse() * scale.asDiagonal();
-  return 0.5 * (inverse + inverse.transpose());
-}
-
 }  // namespace
 
 std::vector<SystemParameter> BiasPrior::known() const {
@@ -51,7 +40,7 @@ std::vector<SystemParameter> BiasPrior::known() const {
 SystemMatrix BiasPrior::covariance() const {
   const std::vector<SystemParameter> parameters = known();
   if (parameters.empty()) return SystemMatrix::Zero();
-  const Eigen::MatrixXd inverse = inverseOf(block(information, parameters, parameters));
+  const Eigen::MatrixXd inverse = inverseOfDefinite(block(information, parameters, parameters));
   if (inverse.size() == 0) throw InputError("prior: its information is not positive definite");
   return embedded(inverse, parameters);
 }
@@ -67,7 +56,7 @@ BiasPrior BiasPrior::marginal(const std::vector<SystemParameter>& parameters) co
   const Eigen::MatrixXd coupling = block(information, kept, left);
   // Independent parameters keep their information to the last digit.
   if (!coupling.isZero(0.0)) {
-    const Eigen::MatrixXd inverse = inverseOf(block(information, left, left));
+    const Eigen::MatrixXd inverse = inverseOfDefinite(block(information, left, left));
     if (inverse.size() == 0) throw InputError("prior: its information is not positive definite");
     of_kept -= coupling * inverse * coupling.transpose();
     of_kept = (0.5 * (of_kept + of_kept.transpose())).eval();
@@ -97,7 +86,7 @@ BiasPrior biasPrior(const std::vector<SystemParameter>& parameters, const System
                     const Eigen::MatrixXd& covariance) {
   BiasPrior prior;
   if (parameters.empty()) return prior;
-  const Eigen::MatrixXd inverse = inverseOf(covariance);
+  const Eigen::MatrixXd inverse = inverseOfDefinite(covariance);
   if (inverse.size() == 0)
     throw InputError("the covariance matrix of the parameters is not positive definite");
   prior.information = embedded(inverse, parameters);

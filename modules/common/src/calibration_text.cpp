@@ -9,15 +9,11 @@
 #include <sstream>
 
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/common/text_values.h>
 
 namespace pcl_als {
 namespace {
-
-/// Digits after the point that suit a parameter's unit.
-int digitsOf(const SystemParameterInfo& info) {
-  return info.unit == "m" ? 4 : info.unit == "arcsec" ? 2 : 7;
-}
 
 using Parameters = std::array<ParameterEstimate, kSystemParameterCount>;
 
@@ -42,7 +38,7 @@ void parameterTable(const Parameters& parameters, std::ostream& out) {
         parameters[static_cast<std::size_t>(indexOf(info.parameter))];
     out << "| " << std::left << std::setw(18) << info.name << std::right << " | ";
     if (estimate.status == ParameterStatus::estimated) {
-      out << std::fixed << std::setprecision(digitsOf(info));
+      out << std::fixed << std::setprecision(tableDecimals(info.parameter));
       for (const double value : {estimate.bias, estimate.std, estimate.std_formal}) {
         out << std::setw(12) << value / info.internal_per_unit << " | ";
       }
@@ -69,7 +65,7 @@ void differenceTable(const SystemEstimate& system, const CalibrationResult& resu
     if (!(system.difference_std[i] > 0.0)) continue;
     const ParameterEstimate& p = system.parameters[static_cast<std::size_t>(i)];
     out << "| " << std::left << std::setw(18) << info.name << std::right << " | " << std::fixed
-        << std::setprecision(digitsOf(info));
+        << std::setprecision(tableDecimals(info.parameter));
     const double difference = p.bias - result[info.parameter].bias;
     for (const double value : {p.bias, p.std, difference, system.difference_std[i]})
       out << std::setw(12) << value / info.internal_per_unit << " | ";
@@ -287,9 +283,9 @@ std::string CalibrationResult::briefReport() const {
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate = (*this)[info.parameter];
     if (estimate.status != ParameterStatus::estimated) continue;
-    out << ' ' << info.name << std::setprecision(digitsOf(info)) << ' '
+    out << ' ' << info.name << std::setprecision(tableDecimals(info.parameter)) << ' '
         << estimate.bias / info.internal_per_unit << " +- " << estimate.std / info.internal_per_unit
-        << (info.unit == "1" ? "" : " ") << (info.unit == "1" ? "" : info.unit) << ',';
+        << unitSuffix(info.parameter) << ',';
   }
   out << std::setprecision(3) << " sigma0 " << sigma0 << ", " << iterations.size() << " iterations";
   return out.str();

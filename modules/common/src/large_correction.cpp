@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include <pcl_als/common/large_correction.h>
+#include <pcl_als/common/parameter_text.h>
 
 namespace pcl_als {
 
@@ -23,8 +24,7 @@ std::string sizeText(const LargeCorrection& correction) {
   const double std = correction.std / axis.internal_per_unit;
   // Two digits of the standard deviation.
   const double size = std > 0.0 ? std : std::abs(value);
-  const int digits =
-      size > 0.0 ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(size)))) : 0;
+  const int digits = size > 0.0 ? decimalsOfStd(size) : 0;
   char text[120];
   std::snprintf(text, sizeof text, "%s %+.*f +- %.*f %s", std::string(axis.name).c_str(), digits,
                 value, digits, std, std::string(axis.unit).c_str());

@@ -85,6 +85,16 @@ Eigen::MatrixXd inverseOrEmpty(const Eigen::MatrixXd& matrix) {
   return lu.inverse();
 }
 
+Eigen::MatrixXd inverseOfDefinite(const Eigen::MatrixXd& matrix) {
+  constexpr double kSingular = 1e-12;  // of a matrix with unit diagonal
+  if (!matrix.allFinite() || !(matrix.diagonal().array() > 0.0).all()) return {};
+  const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+  const LdltFactor factor(scale.asDiagonal() * matrix * scale.asDiagonal());
+  if (!factor.succeeded() || !(factor.diagonal().minCoeff() > kSingular)) return {};
+  const Eigen::MatrixXd inverse = scale.asDiagonal() * factor.inverse() * scale.asDiagonal();
+  return 0.5 * (inverse + inverse.transpose());
+}
+
 Eigen::MatrixXd orthogonalComplement(const Eigen::MatrixXd& design) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(design);
   const Eigen::MatrixXd orthogonal = qr.householderQ();

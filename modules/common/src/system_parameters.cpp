@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
@@ -31,7 +32,7 @@ std::string refusedBias(SystemParameter p, double bias) {
   const double limit = largestBias(p);
   if (std::abs(bias) < limit) return {};
   const SystemParameterInfo& info = infoOf(p);
-  const std::string unit = info.unit == "1" ? "" : " " + std::string(info.unit);
+  const std::string unit = unitSuffix(p);
   std::ostringstream text;
   text << bias / info.internal_per_unit << unit << " is not between "
        << -limit / info.internal_per_unit << " and " << limit / info.internal_per_unit << unit;

@@ -144,7 +144,7 @@ void drawMarks(Canvas& canvas, const std::vector<BlockMap::Mark>& marks, const M
     Eigen::Vector2d at;
     std::string text;
   };
-  constexpr double kWidth = 6.0, kCasing = 10.0, kDisk = 24.0, kAside = 22.0;  // pixels
+  constexpr double kWidth = 6.0, kCasing = 10.0, kDisk = 24.0, kLabelOffset = 22.0;  // pixels
   std::vector<Label> labels;
   for (const auto& [width, color] : {std::pair(kCasing, ink::white), {kWidth, kPathColor}}) {
     for (const BlockMap::Mark& mark : marks) {
@@ -159,7 +159,7 @@ void drawMarks(Canvas& canvas, const std::vector<BlockMap::Mark>& marks, const M
     const Eigen::Vector2d way = to - from;
     Eigen::Vector2d aside = Eigen::Vector2d(way.y(), -way.x()).normalized();
     if (aside.y() > 0.0) aside = -aside;
-    const Eigen::Vector2d at = 0.5 * (from + to) + kAside * aside;
+    const Eigen::Vector2d at = 0.5 * (from + to) + kLabelOffset * aside;
     const auto near = std::find_if(labels.begin(), labels.end(), [&](const Label& label) {
       return (label.at - at).norm() < kDisk;
     });

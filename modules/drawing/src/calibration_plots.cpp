@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/drawing/axes.h>
 #include <pcl_als/drawing/calibration_plots.h>
 #include <pcl_als/drawing/map_furniture.h>
@@ -90,30 +91,6 @@ std::vector<double> numbersTo(std::size_t count) {
 }
 
 }  // namespace
-
-std::string plainName(SystemParameter parameter) {
-  std::string name(infoOf(parameter).name);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
-int decimalsOfStd(double std) {
-  const int leading = std > 0.0 ? static_cast<int>(std::floor(std::log10(std))) : -6;
-  return std::clamp(1 - leading, 0, 9);
-}
-
-std::string estimateText(SystemParameter parameter, const ParameterEstimate& estimate) {
-  const SystemParameterInfo& info = infoOf(parameter);
-  if (estimate.status == ParameterStatus::estimated) {
-    const double std = estimate.std / info.internal_per_unit;
-    const int decimals = decimalsOfStd(std);
-    return numberText(estimate.bias / info.internal_per_unit, decimals) + " ± " +
-           numberText(std, decimals) + (info.unit == "1" ? "" : " " + std::string(info.unit));
-  }
-  const std::string status =
-      estimate.status == ParameterStatus::fixed ? "not estimated" : "not determined";
-  return estimate.reason.empty() ? status : status + ": " + estimate.reason;
-}
 
 Canvas drawParameters(const CalibrationResult& result, PictureSize size) {
   Canvas canvas(size.width, size.height);

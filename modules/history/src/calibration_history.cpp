@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
-
 #include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/distributions.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/history/calibration_history.h>
 
 #include "change_detection.h"
@@ -131,26 +131,19 @@ MissionAgreement agreementOf(std::size_t m, const CalibrationMission& mission,
   if (compared.empty()) return agreement;
   Eigen::MatrixXd information = data.matrix[m](own, own);
   for (std::size_t i = 0; i < own.size(); ++i) {
-    const int p = own[i];
-    const double std = mission.held_std[p] > 0.0 ? mission.held_std[p]
-                                                 : largestBias(static_cast<SystemParameter>(p));
-    information(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += 1.0 / (std * std);
+    const auto at = static_cast<Eigen::Index>(i);
+    information(at, at) +=
+        1.0 / std::pow(mission.priorStd(static_cast<SystemParameter>(own[i])), 2);
   }
-  const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
   SystemMatrix covariance = SystemMatrix::Zero();
-  covariance(own, own) =
-      scale.asDiagonal() *
-      scaled.ldlt().solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols())) *
-      scale.asDiagonal();
+  const Eigen::MatrixXd of_mission = inverseOfDefinite(information);
+  if (of_mission.size() == 0) return agreement;
+  covariance(own, own) = of_mission;
   const SystemVector bias = covariance * data.vector[m];
   const Eigen::VectorXd error = (bias - model.at(m))(compared);
   const Eigen::MatrixXd variance = (covariance + prediction)(compared, compared);
-  const Eigen::VectorXd std = variance.diagonal().cwiseSqrt();
-  const Eigen::VectorXd normalised = error.cwiseQuotient(std);
-  const Eigen::MatrixXd correlation =
-      std.cwiseInverse().asDiagonal() * variance * std.cwiseInverse().asDiagonal();
-  agreement.chi_squared = normalised.dot(correlation.ldlt().solve(normalised));
+  const Eigen::VectorXd normalised = error.cwiseQuotient(variance.diagonal().cwiseSqrt());
+  agreement.chi_squared = error.dot(inverseOfDefinite(variance) * error);
   agreement.freedom = static_cast<double>(compared.size());
   agreement.p_value = chiSquaredTail(agreement.chi_squared, agreement.freedom);
   Eigen::Index largest = 0;
@@ -158,19 +151,6 @@ MissionAgreement agreementOf(std::size_t m, const CalibrationMission& mission,
   agreement.largest = static_cast<SystemParameter>(compared[static_cast<std::size_t>(largest)]);
   agreement.deviation = normalised[largest];
   return agreement;
-}
-
-std::string inUnit(SystemParameter p, double value, double std) {
-  const SystemParameterInfo& info = infoOf(p);
-  const double unit = info.internal_per_unit;
-  const int decimals =
-      std > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(std / unit))), 0, 9) : 4;
-  return numberText(value / unit, decimals) + " ± " + numberText(std / unit, decimals);
-}
-
-std::string unitOf(SystemParameter p) {
-  const std::string unit(infoOf(p).unit);
-  return unit == "1" ? "" : " " + unit;
 }
 
 std::string probabilityText(double p) {
@@ -235,8 +215,7 @@ CalibrationHistory calibrationHistory(std::vector<CalibrationMission> missions,
 
 std::string changeText(const CalibrationHistory& history, const ParameterChange& change) {
   const std::string name(infoOf(change.parameter).name);
-  const std::string size =
-      inUnit(change.parameter, change.size, change.std) + unitOf(change.parameter);
+  const std::string size = valueText(change.parameter, change.size, change.std);
   const std::string probability = " (" + probabilityText(change.p_value) + ")";
   if (change.kind == ChangeKind::outlier)
     return name + " of " + history.label(change.first_after) + " differs by " + size +
@@ -247,30 +226,28 @@ std::string changeText(const CalibrationHistory& history, const ParameterChange&
   if (change.covariate == "date") {
     const double days = static_cast<double>(*history.missions[change.first_after].day -
                                             *history.missions[change.last_before].day);
-    return name +
-           " drifts with time: " + inUnit(change.parameter, change.size * days, change.std * days) +
-           unitOf(change.parameter) + " over " + numberText(days, 0) + " days" + probability;
+    return name + " drifts with time: " +
+           valueText(change.parameter, change.size * days, change.std * days) + " over " +
+           numberText(days, 0) + " days" + probability;
   }
   return name + " depends on the " + change.covariate + ": " + size + " per unit" + probability;
 }
 
 CalibrationResult pooledInstrument(const CalibrationHistory& history,
                                    const CalibrationResult& newest) {
-  CalibrationResult result = instrumentOf(newest);
-  result.systems.clear();
-  result.sources.setZero();
-  result.prior = BiasPrior();
-  result.held_parameters = HeldParameters();
-  result.error_levels.reset();
-  result.inputs.clear();
+  CalibrationResult result;
+  result.system_name = newest.system_name;
+  result.attitude = newest.attitude;
+  result.scan_planes = newest.scan_planes;
+  result.channel_field = newest.channel_field;
+  result.source_scale = newest.source_scale;
+  result.line_fit_half_width = newest.line_fit_half_width;
+  result.crs = newest.crs;
   for (const CalibrationMission& mission : history.missions) result.inputs.push_back(mission.name);
-  result.verdict = CalibrationVerdict();
   result.verdict.reason = "pooled from " + counted(history.missions.size(), "calibration");
-  result.correlation_order.clear();
   std::vector<int> known;
   for (const SystemParameterInfo& info : systemParameters()) {
     ParameterEstimate& parameter = result[info.parameter];
-    parameter = ParameterEstimate();
     const int p = indexOf(info.parameter);
     if (!history.knows(info.parameter)) {
       parameter.status = ParameterStatus::not_estimable;

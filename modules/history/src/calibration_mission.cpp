@@ -5,37 +5,20 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/linear_solvers.h>
+#include <pcl_als/common/parameter_covariance.h>
 #include <pcl_als/history/calibration_mission.h>
 
 namespace pcl_als {
 namespace {
 
-/// Estimated parameters of one system with their correlations.
-struct EstimatedParameters {
-  std::array<ParameterEstimate, kSystemParameterCount> parameters;
-  std::vector<SystemParameter> order;
-  Eigen::MatrixXd correlation;
-};
-
-EstimatedParameters firstSystem(const CalibrationResult& calibration, const std::string& name) {
-  EstimatedParameters result{calibration.parameters, calibration.correlation_order,
-                             calibration.correlation};
-  const auto is_estimated = [&](SystemParameter p) {
-    return calibration[p].status == ParameterStatus::estimated;
-  };
-  if (!std::all_of(result.order.begin(), result.order.end(), is_estimated))
-    throw InputError(name + ": the correlation matrix names a parameter that is not estimated");
-  if (result.order.empty())
-    throw InputError(name + ": no parameter is estimated with correlations; a history needs them");
-  return result;
-}
-
-EstimatedParameters systemNamed(const CalibrationResult& calibration, const std::string& name,
-                                const std::string& system) {
+/// A system other than the first one, whose correlations are not stored, as a calibration; none for
+/// the first one.
+std::optional<CalibrationResult> otherSystem(const CalibrationResult& calibration,
+                                             const std::string& name, const std::string& system) {
   const auto& systems = calibration.systems;
   const auto found = std::find_if(systems.begin(), systems.end(),
                                   [&](const SystemEstimate& s) { return s.group.name == system; });
@@ -45,43 +28,34 @@ EstimatedParameters systemNamed(const CalibrationResult& calibration, const std:
     throw InputError(name + ": has no system '" + system + "'; " +
                      (known.empty() ? "it has one system without a name" : "it has " + known));
   }
-  if (found == systems.begin()) return firstSystem(calibration, name);
-  EstimatedParameters result{found->parameters, {}, {}};
+  if (found == systems.begin()) return std::nullopt;
+  CalibrationResult other;
+  other.parameters = found->parameters;
   for (const SystemParameterInfo& info : systemParameters())
-    if (found->parameters[static_cast<std::size_t>(indexOf(info.parameter))].status ==
-        ParameterStatus::estimated)
-      result.order.push_back(info.parameter);
-  const auto size = static_cast<Eigen::Index>(result.order.size());
-  result.correlation = Eigen::MatrixXd::Identity(size, size);
-  return result;
+    if (other[info.parameter].status == ParameterStatus::estimated)
+      other.correlation_order.push_back(info.parameter);
+  const auto size = static_cast<Eigen::Index>(other.correlation_order.size());
+  other.correlation = Eigen::MatrixXd::Identity(size, size);
+  return other;
 }
 
 Eigen::MatrixXd scaledBy(const Eigen::VectorXd& scale, const Eigen::MatrixXd& matrix) {
   return scale.asDiagonal() * matrix * scale.asDiagonal();
 }
 
-/// Inverse of a positive definite matrix whose rows have different units; empty where it is not.
-Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& matrix) {
-  if (!matrix.allFinite() || !(matrix.diagonal().array() > 0.0).all()) return {};
-  const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> factor(scaledBy(scale, matrix));
-  if (factor.info() != Eigen::Success) return {};
-  return scaledBy(scale, factor.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols())));
-}
-
 /// Adds what the estimates tell of themselves and of the held parameters.
-void addInformation(const EstimatedParameters& estimated, const Eigen::VectorXd& bias,
-                    const Eigen::MatrixXd& covariance, const HeldParameters& held,
+void addInformation(const CalibrationResult& estimated, const Eigen::MatrixXd& covariance,
                     CalibrationMission& mission) {
-  const auto size = static_cast<Eigen::Index>(estimated.order.size());
+  const HeldParameters& held = estimated.held_parameters;
+  std::vector<SystemParameter> order = estimated.correlation_order;
+  const auto size = static_cast<Eigen::Index>(order.size());
   const auto held_size = static_cast<Eigen::Index>(held.parameters.size());
   const bool known = held.effect.rows() == size && held.effect.cols() == held_size;
   Eigen::MatrixXd inverse, design = Eigen::MatrixXd::Identity(size, size);
-  std::vector<SystemParameter> order = estimated.order;
   if (known && held_size > 0) {
     const Eigen::Map<const Eigen::VectorXd> std(held.std.data(), held_size);
-    inverse = inverseOf(covariance -
-                        held.effect * std.cwiseAbs2().asDiagonal() * held.effect.transpose());
+    inverse = inverseOfDefinite(covariance - held.effect * std.cwiseAbs2().asDiagonal() *
+                                                 held.effect.transpose());
   }
   if (inverse.size() > 0) {
     design.conservativeResize(size, size + held_size);
@@ -91,10 +65,13 @@ void addInformation(const EstimatedParameters& estimated, const Eigen::VectorXd&
       mission.held_std[indexOf(held.parameters[k])] = held.std[k];
     }
   } else {
-    inverse = inverseOf(covariance);
+    inverse = inverseOfDefinite(covariance);
   }
   if (inverse.size() == 0)
-    throw InputError(mission.name + ": the correlation matrix is not positive definite");
+    throw InputError(mission.name + ": the correlation matrix is numerically singular");
+  Eigen::VectorXd bias(size);
+  for (Eigen::Index i = 0; i < size; ++i)
+    bias[i] = estimated[order[static_cast<std::size_t>(i)]].bias;
   const Eigen::MatrixXd information = design.transpose() * inverse * design;
   const Eigen::VectorXd vector = design.transpose() * (inverse * bias);
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -110,7 +87,7 @@ void addInformation(const EstimatedParameters& estimated, const Eigen::VectorXd&
 /// the model, so that the rest need not be positive definite: directions in which nothing is left
 /// are of no information.
 void removePrior(const BiasPrior& prior, CalibrationMission& mission) {
-  constexpr double kNothing = 1e-6;  // of the information with the prior
+  constexpr double kNegligible = 1e-6;  // of the information with the prior
   const SystemVector diagonal = mission.information.diagonal();
   const SystemVector scale =
       (diagonal.array() > 0.0).select(diagonal.cwiseSqrt().cwiseInverse(), SystemVector::Ones());
@@ -118,8 +95,8 @@ void removePrior(const BiasPrior& prior, CalibrationMission& mission) {
   const SystemVector vector =
       scale.cwiseProduct(mission.information_vector - prior.information * prior.mean);
   const Eigen::SelfAdjointEigenSolver<SystemMatrix> eigen(scaled);
-  const SystemVector kept =
-      (eigen.eigenvalues().array() > kNothing).select(SystemVector::Ones(), SystemVector::Zero());
+  const SystemVector kept = (eigen.eigenvalues().array() > kNegligible)
+                                .select(SystemVector::Ones(), SystemVector::Zero());
   const SystemMatrix& axes = eigen.eigenvectors();
   const SystemMatrix rest =
       axes * kept.cwiseProduct(eigen.eigenvalues()).asDiagonal() * axes.transpose();
@@ -130,18 +107,18 @@ void removePrior(const BiasPrior& prior, CalibrationMission& mission) {
   SystemMatrix regular = mission.information;
   for (const SystemParameterInfo& info : systemParameters()) {
     const int p = indexOf(info.parameter);
-    const double std =
-        mission.held_std[p] > 0.0 ? mission.held_std[p] : largestBias(info.parameter);
-    regular(p, p) += 1.0 / (std * std);
+    regular(p, p) += 1.0 / std::pow(mission.priorStd(info.parameter), 2);
   }
-  constexpr double kTellsSomething = 0.05;  // of the largest bias that is accepted
-  const Eigen::MatrixXd covariance = inverseOf(regular);
+  constexpr double kLargestInformativeStd = 0.05;  // of the largest bias that is accepted
+  const Eigen::MatrixXd covariance = inverseOfDefinite(regular);
+  if (covariance.size() == 0)
+    throw InputError(mission.name + ": without its prior the flight is numerically singular");
   const SystemVector bias = covariance * mission.information_vector;
   for (const SystemParameterInfo& info : systemParameters()) {
     const int p = indexOf(info.parameter);
     if (std::isnan(mission.std[p])) continue;
     const double std = std::sqrt(covariance(p, p));
-    const bool tells = std < kTellsSomething * largestBias(info.parameter);
+    const bool tells = std < kLargestInformativeStd * largestBias(info.parameter);
     mission.bias[p] = tells ? bias[p] : std::numeric_limits<double>::quiet_NaN();
     mission.std[p] = tells ? std : std::numeric_limits<double>::quiet_NaN();
   }
@@ -151,29 +128,21 @@ void removePrior(const BiasPrior& prior, CalibrationMission& mission) {
 
 CalibrationMission missionOf(const CalibrationResult& calibration, const std::string& name,
                              const std::string& system) {
-  const EstimatedParameters estimated =
-      system.empty() ? firstSystem(calibration, name) : systemNamed(calibration, name, system);
+  std::optional<CalibrationResult> other;
+  if (!system.empty()) other = otherSystem(calibration, name, system);
+  const CalibrationResult& estimated = other ? *other : calibration;
   CalibrationMission mission;
   mission.name = name;
   mission.day = calibration.day;
   mission.bias.setConstant(std::numeric_limits<double>::quiet_NaN());
   mission.std = mission.bias;
-  const auto size = static_cast<Eigen::Index>(estimated.order.size());
-  Eigen::VectorXd bias(size), std(size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const int p = indexOf(estimated.order[static_cast<std::size_t>(i)]);
-    const ParameterEstimate& estimate = estimated.parameters[static_cast<std::size_t>(p)];
-    bias[i] = mission.bias[p] = estimate.bias;
-    std[i] = mission.std[p] = estimate.std;
-    if (!(std[i] > 0.0))
-      throw InputError(name + ": the standard deviation of " +
-                       std::string(systemParameters()[static_cast<std::size_t>(p)].name) +
-                       " is not a positive number");
+  addInformation(estimated, estimatedCovariance(estimated, name), mission);
+  for (const SystemParameter p : estimated.correlation_order) {
+    mission.bias[indexOf(p)] = estimated[p].bias;
+    mission.std[indexOf(p)] = estimated[p].std;
   }
-  const bool first = system.empty() || system == calibration.systems.front().group.name;
-  addInformation(estimated, bias, scaledBy(std, estimated.correlation),
-                 first ? calibration.held_parameters : HeldParameters(), mission);
-  if (calibration.prior.any()) removePrior(calibration.prior.marginal(estimated.order), mission);
+  if (calibration.prior.any())
+    removePrior(calibration.prior.marginal(estimated.correlation_order), mission);
   return mission;
 }
 

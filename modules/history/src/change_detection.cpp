@@ -21,7 +21,7 @@ namespace {
 constexpr double kStepShare = 0.8, kOutlierShare = 0.1, kDriftShare = 0.1;
 constexpr std::size_t kFewestForTrend = 4;  // missions that show an outlier or a drift
 constexpr int kSimulations = 2000;          // of the largest statistic: levels of 0.04 to 5 %
-constexpr double kProbable = 0.9;           // of changes rather than random variation
+constexpr double kLeastProbability = 0.9;   // of changes rather than random variation
 
 struct Candidate {
   ParameterChange change;
@@ -254,7 +254,7 @@ class Detection {
     constexpr int kMostPending = 2;
     ++pending_[at];
     const Comparison comparison = compare(p);
-    if (comparison.probability >= kProbable) {
+    if (comparison.probability >= kLeastProbability) {
       int left = pending_[at];
       for (auto change = changes_.rbegin(); left > 0; ++change) {
         if (change->term.parameter != p) continue;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <set>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/history/history_files.h>
+#include <pcl_als/io/applied_correction.h>
 #include <pcl_als/io/mission_table.h>
 #include <pcl_als/io/survey_io.h>
 
@@ -11,10 +13,6 @@ namespace pcl_als {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool sameFlight(const CalibrationResult& a, const CalibrationResult& b) {
-  return a.inputs == b.inputs && a.biases() == b.biases() && a.redundancy == b.redundancy;
-}
 
 /// Refuses calibrations of different instruments; those without a name belong to any.
 void requireSameSystem(const std::vector<CalibrationResult>& used,
@@ -48,6 +46,7 @@ HistoryMissions readHistoryMissions(const HistoryInput& input) {
   std::vector<MissionRow> table;
   if (!input.missions.empty()) table = readMissionTable(input.missions);
   std::vector<CalibrationResult> used;
+  std::set<std::string> ids;
   for (const fs::path& file : input.calibrations) {
     CalibrationResult calibration = readCalibration(file);
     if (!calibration.verdict.usable() && !input.with_unusable) {
@@ -61,10 +60,7 @@ HistoryMissions readHistoryMissions(const HistoryInput& input) {
                                      : "the instrument " + calibration.system_name));
       continue;
     }
-    const auto is_same = [&](const CalibrationResult& other) {
-      return sameFlight(calibration, other);
-    };
-    if (std::any_of(used.begin(), used.end(), is_same)) {
+    if (!ids.insert(calibrationId(calibration)).second) {
       result.excluded.push_back(file.string() + ": not used, it repeats another calibration");
       continue;
     }

@@ -111,10 +111,6 @@ SystemMatrix HistoryModel::covarianceAt(std::size_t mission) const {
   return covariance;
 }
 
-SystemVector HistoryModel::residual(std::size_t mission) const {
-  return data_.vector[mission] - data_.matrix[mission] * valuesAt(mission, solution_, true);
-}
-
 std::vector<SystemVector> HistoryModel::residuals(const std::vector<SystemVector>& vectors) const {
   const Eigen::VectorXd solution = covariance_ * rightSide(vectors);
   std::vector<SystemVector> result;

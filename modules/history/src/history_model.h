@@ -51,11 +51,11 @@ class HistoryModel {
   SystemVector at(std::size_t mission) const;
   /// Their covariance.
   SystemMatrix covarianceAt(std::size_t mission) const;
-  /// Information vector of the residuals of mission m: L_m (b_m - beta(m)).
-  SystemVector residual(std::size_t mission) const;
-  /// The same with other observations: \a vectors in place of those of the data.
+  /// Information vectors of the residuals of the missions, L_m (b_m - beta(m)), of observations
+  /// with the information vectors \a vectors.
   std::vector<SystemVector> residuals(const std::vector<SystemVector>& vectors) const;
-  /// Variance of the score of a further term, sum over m of design[m] times residual(m)[parameter].
+  /// Variance of the score of a further term, sum over m of design[m] times
+  /// residuals()[m][parameter].
   double scoreVariance(const HistoryTerm& term) const;
 
  private:

@@ -7,6 +7,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
+#include <pcl_als/common/parameter_covariance.h>
 #include <pcl_als/io/prior_file.h>
 
 #include "calibration_json.h"
@@ -39,43 +40,16 @@ void readHistory(const JsonNode& root, PriorFile& file) {
   }
 }
 
-/// Covariance of the parameters in the order of the correlations, with the change between missions.
-Eigen::MatrixXd covarianceOf(const PriorFile& file) {
-  const std::vector<SystemParameter>& order = file.earlier.correlation_order;
-  Eigen::VectorXd std(order.size()), change(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    std[row] = file.earlier[order[i]].std;
-    change[row] = file.change_std[indexOf(order[i])];
-    if (file.earlier[order[i]].status != ParameterStatus::estimated)
-      throw InputError(file.name + ": 'correlation.order' names " +
-                       std::string(infoOf(order[i]).name) + ", which is not estimated");
-    if (!(std[row] > 0.0) || !std::isfinite(std[row]))
-      throw InputError(file.name + ": the standard deviation of " +
-                       std::string(infoOf(order[i]).name) + " is not known");
-  }
-  // Changes would hide correlations that cannot be.
-  if (!(file.earlier.correlation.allFinite() &&
-        file.earlier.correlation.llt().info() == Eigen::Success))
-    throw InputError(file.name + ": the correlation matrix is not positive definite");
-  Eigen::MatrixXd covariance = std.asDiagonal() * file.earlier.correlation * std.asDiagonal();
-  covariance.diagonal() += change.cwiseAbs2();
-  return covariance;
-}
-
 }  // namespace
 
 BiasPrior PriorFile::prior() const {
   const std::vector<SystemParameter>& order = earlier.correlation_order;
-  if (order.empty())
-    throw InputError(name + ": no parameter was estimated, with correlations; it is no prior");
-  BiasPrior made;
-  try {
-    made = biasPrior(order, earlier.biases(), covarianceOf(*this));
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    throw InputError(text.compare(0, name.size(), name) == 0 ? text : name + ": " + text);
+  Eigen::MatrixXd covariance = estimatedCovariance(earlier, name);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    covariance(row, row) += std::pow(change_std[indexOf(order[i])], 2);
   }
+  BiasPrior made = biasPrior(order, earlier.biases(), covariance);
   made.source = name;
   made.attitude = earlier.attitude;
   made.of_other_missions = true;

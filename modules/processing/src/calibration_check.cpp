@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cstdio>
-#include <sstream>
 
 #include <pcl_als/calibration/survey_calibration.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/io/prior_file.h>
 #include <pcl_als/processing/calibration_check.h>
 
@@ -36,14 +36,6 @@ BiasPrior priorOf(const CalibrationResult& calibration) {
   return prior;
 }
 
-std::string inUnit(SystemParameter parameter, double value) {
-  const SystemParameterInfo& info = infoOf(parameter);
-  std::ostringstream text;
-  text.precision(3);
-  text << value / info.internal_per_unit;
-  return text.str();
-}
-
 }  // namespace
 
 std::string CalibrationCheck::text(const std::string& name) const {
@@ -57,11 +49,9 @@ std::string CalibrationCheck::text(const std::string& name) const {
                      " for these strips: " + misfit;
   if (!differences.empty()) {
     const PriorDifference& largest = differences.front();
-    const SystemParameterInfo& info = infoOf(largest.parameter);
-    text += std::string("; ") + std::string(info.name) + " differs by " +
-            inUnit(largest.parameter, largest.change) + " +- " +
-            inUnit(largest.parameter, largest.change_std) +
-            (info.unit == "1" ? "" : " " + std::string(info.unit));
+    text += "; " + std::string(infoOf(largest.parameter).name) + " differs by " +
+            shortValue(largest.parameter, largest.change) + " +- " +
+            inUnit(largest.parameter, largest.change_std);
   }
   return holds() ? text : text + "; calibrate the system with these strips";
 }

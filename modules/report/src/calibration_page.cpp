@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/drawing/calibration_plots.h>
 #include <pcl_als/drawing/row_plots.h>
 #include <pcl_als/processing/picture/section_places.h>
@@ -14,10 +15,6 @@
 
 namespace pcl_als {
 namespace {
-
-std::string unitText(const SystemParameterInfo& info) {
-  return info.unit == "1" ? std::string() : std::string(info.unit);
-}
 
 /// "Lever arm x, lever arm y: apply this calibration": each remedy once, with the errors it is for.
 std::vector<std::string> remediesOf(const CalibrationResult& result) {
@@ -58,7 +55,7 @@ ReportTable parameterTable(const CalibrationResult& result) {
     };
     std::string status(toString(estimate.status));
     if (!estimate.reason.empty()) status += ": " + estimate.reason;
-    table.rows.push_back({headingOf(info.parameter), unitText(info), cell(estimate.bias),
+    table.rows.push_back({headingOf(info.parameter), unitText(info.parameter), cell(estimate.bias),
                           cell(estimate.std), cell(estimate.std_formal), status});
     if (with_prior)
       table.rows.back().push_back(known ? numberText(100.0 * estimate.prior_share, 0) : "");
@@ -181,7 +178,7 @@ ReportTable systemTable(const CalibrationResult& result) {
           result.systems.begin(), result.systems.end(),
           [&](const SystemEstimate& other) { return other.parameters[i].bias != first; });
       if (differs)
-        add(headingOf(info.parameter), unitText(info), here / info.internal_per_unit,
+        add(headingOf(info.parameter), unitText(info.parameter), here / info.internal_per_unit,
             system.parameters[i].std / info.internal_per_unit,
             system.difference_std[indexOf(info.parameter)] / info.internal_per_unit);
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/drawing/calibration_plots.h>
 #include <pcl_als/quality/accuracy_standards.h>
 

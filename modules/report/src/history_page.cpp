@@ -5,7 +5,7 @@
 
 #include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/number_text.h>
-#include <pcl_als/drawing/calibration_plots.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/drawing/control_chart.h>
 #include <pcl_als/report/history_report.h>
 
@@ -16,8 +16,10 @@ namespace {
 
 constexpr PictureSize kChart{1400, 420};
 
-std::string unitSuffix(const SystemParameterInfo& info) {
-  return info.unit == "1" ? "" : ", " + std::string(info.unit);
+/// "boresight roll, arcsec"
+std::string labelOf(SystemParameter parameter) {
+  const std::string unit = unitText(parameter);
+  return plainName(parameter) + (unit.empty() ? unit : ", " + unit);
 }
 
 ReportTable valueTable(const CalibrationHistory& history) {
@@ -30,7 +32,7 @@ ReportTable valueTable(const CalibrationHistory& history) {
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterHistory& parameter = history[info.parameter];
     auto& row = table.rows.emplace_back();
-    row = {plainName(info.parameter), info.unit == "1" ? "" : std::string(info.unit)};
+    row = {plainName(info.parameter), unitText(info.parameter)};
     if (parameter.missions == 0) {
       row.emplace_back("not determined by any calibration");
       continue;
@@ -57,10 +59,10 @@ ReportTable segmentTable(const CalibrationHistory& history) {
     for (const ParameterSegment& segment : segments) {
       const double unit = info.internal_per_unit;
       const int decimals = decimalsOfStd(segment.std / unit);
-      table.rows.push_back(
-          {plainName(info.parameter), info.unit == "1" ? "" : std::string(info.unit),
-           history.label(segment.first), history.label(segment.last),
-           numberText(segment.bias / unit, decimals), numberText(segment.std / unit, decimals)});
+      table.rows.push_back({plainName(info.parameter), unitText(info.parameter),
+                            history.label(segment.first), history.label(segment.last),
+                            numberText(segment.bias / unit, decimals),
+                            numberText(segment.std / unit, decimals)});
     }
   }
   return table;
@@ -95,7 +97,7 @@ ControlChart chartOf(const CalibrationHistory& history, const SystemParameterInf
   const ParameterHistory& parameter = history[info.parameter];
   const int p = indexOf(info.parameter);
   const double unit = info.internal_per_unit;
-  ControlChart chart{plainName(info.parameter), plainName(info.parameter) + unitSuffix(info), {}};
+  ControlChart chart{plainName(info.parameter), labelOf(info.parameter), {}};
   for (std::size_t m = 0; m < history.missions.size(); ++m) {
     const CalibrationMission& mission = history.missions[m];
     const bool known = mission.determines(info.parameter);

@@ -9,6 +9,7 @@
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/report/history_report.h>
 
@@ -20,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kIsZero = 3.0, kIsNotZero = 5.0;  // standard deviations
+constexpr double kMostFromZero = 3.0, kLeastFromZero = 5.0;  // standard deviations
 
 /// The segments before and after a step.
 std::pair<const ParameterSegment*, const ParameterSegment*> around(
@@ -36,8 +37,8 @@ std::string causeOf(const CalibrationHistory& history,
                     const std::vector<const ParameterChange*>& steps) {
   const auto became_zero = [&](const ParameterChange* step) {
     const auto [before, after] = around(history, *step);
-    return before != nullptr && std::abs(before->bias) > kIsNotZero * before->std &&
-           std::abs(after->bias) < kIsZero * after->std;
+    return before != nullptr && std::abs(before->bias) > kLeastFromZero * before->std &&
+           std::abs(after->bias) < kMostFromZero * after->std;
   };
   if (std::all_of(steps.begin(), steps.end(), became_zero))
     return "After " + history.label(steps.front()->last_before) +
@@ -57,7 +58,7 @@ std::string parameterLine(const CalibrationHistory& history, const SystemParamet
   const double unit = info.internal_per_unit;
   if (parameter.missions == 0) return formatted("  %-18s not determined\n", info.name.data());
   const double std = std::sqrt(history.covariance(p, p)), change = parameter.change_std;
-  const int digits = info.unit == "m" ? 4 : info.unit == "arcsec" ? 2 : 7;
+  const int digits = tableDecimals(info.parameter);
   return formatted("  %-18s %11.*f %10.*f %10.*f %10.*f  %-6s %6zu  %s\n", info.name.data(), digits,
                    history.value[p] / unit, digits, std / unit, digits,
                    std::hypot(std, change) / unit, digits, change / unit, info.unit.data(),
@@ -138,10 +139,10 @@ std::vector<std::string> historyFindings(const CalibrationHistory& history) {
     const auto is_own = [&](const ParameterChange& c) { return c.parameter == info.parameter; };
     if (parameter.constant || std::any_of(history.changes.begin(), history.changes.end(), is_own))
       continue;
-    findings.push_back(
-        std::string(info.name) + " varies between missions by more than its standard deviations: " +
-        significantText(parameter.change_std / info.internal_per_unit, 2) +
-        (info.unit == "1" ? "" : " " + std::string(info.unit)) + " (standard deviation).");
+    findings.push_back(std::string(info.name) +
+                       " varies between missions by more than its standard deviations: " +
+                       significantText(parameter.change_std / info.internal_per_unit, 2) +
+                       unitSuffix(info.parameter) + " (standard deviation).");
   }
   for (std::size_t m = 0; m < history.missions.size(); ++m) {
     const MissionAgreement& agreement = history.agreement[m];

@@ -16,7 +16,7 @@ namespace pcl_als {
 namespace {
 
 constexpr double kNearGimbalLock = 0.1;    ///< sine: standard deviations are tenfold
-constexpr double kNoticeableShift = 1e-4;  ///< metres, smallest displacement that is told
+constexpr double kNoticeableShift = 1e-4;  ///< metres, smallest displacement that is reported
 
 /// Biases of one system with their covariance.
 struct SystemBiases {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/atomic_file.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/report/mounting_report.h>
 
 #include "formatted.h"
@@ -106,7 +107,7 @@ std::string parameterTable(const MountingReport& report) {
       "|-----------------------|--------------|--------------|--------|----------------|\n";
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate = report.parameters[std::size_t(indexOf(info.parameter))];
-    const int digits = info.unit == "m" ? 4 : info.unit == "arcsec" ? 2 : 7;
+    const int digits = tableDecimals(info.parameter);
     text += formatted("| %-21s | %12.*f | ", std::string(info.name).c_str(), digits,
                       estimate.bias / info.internal_per_unit) +
             deviationText(estimate.std / info.internal_per_unit, digits) +

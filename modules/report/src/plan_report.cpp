@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/atomic_file.h>
+#include <pcl_als/common/parameter_text.h>
 #include <pcl_als/report/plan_report.h>
 
 #include "json_number.h"
@@ -37,7 +38,7 @@ void parameterTable(const FlightPlanResult& result, std::ostream& out) {
     const ParameterEstimate& estimate = result.expected[info.parameter];
     out << "| " << std::left << std::setw(18) << info.name << std::right << " | ";
     if (estimate.status == ParameterStatus::estimated) {
-      const int digits = info.unit == "m" ? 4 : info.unit == "arcsec" ? 2 : 7;
+      const int digits = tableDecimals(info.parameter);
       out << std::setprecision(digits) << std::setw(12) << estimate.std / info.internal_per_unit;
     } else {
       out << "           -";

@@ -1,85 +1,100 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <utility>
+#include <array>
+#include <vector>
 
 #include <pcl_als/trajectory/mounting_convention.h>
 
 namespace pcl_als {
 namespace {
 
-/// Of aircraft, and of the manufacturers of GNSS/INS that follow them.
-std::vector<MountingConvention> conventionsOfNavigation() {
-  MountingConvention aerospace;
-  aerospace.name = "zyx_frd";
-  aerospace.use = "aerospace: yaw, pitch, roll about moving axes, body forward, right, down";
-  aerospace.source =
-      "Swift Navigation SBP, message MSG_ORIENT_EULER; OPC UA Relative Spatial Location, "
-      "RpyOrientationType";
-  aerospace.angles = {{{"roll", 'x'}, {"pitch", 'y'}, {"yaw", 'z'}}};
-  aerospace.product = {2, 1, 0};
+/// What the documentation of a program or a standard states.
+struct Definition {
+  const char *name, *use, *source;
+  std::array<MountingAngle, 3> angles;
+  std::array<int, 3> product;
+  const char *axes, *unit;
 
-  MountingConvention applanix = aerospace;
-  applanix.name = "applanix";
-  applanix.use = "Applanix: mounting angles of a sensor with respect to the reference frame";
-  applanix.source =
-      "Applanix, POS MV V5 Installation and Operation Guide (2017), mounting angles; LVX User "
-      "Manual (2021), section 4.6.11, Tait-Bryan sequence";
-  applanix.angles = {{{"X", 'x'}, {"Y", 'y'}, {"Z", 'z'}}};
+  MountingConvention convention() const {
+    MountingConvention made;
+    made.name = name;
+    made.use = use;
+    made.source = source;
+    made.angles = angles;
+    made.product = product;
+    made.axes = axes;
+    made.unit = unit;
+    return made;
+  }
+};
 
-  MountingConvention novatel;
-  novatel.name = "novatel";
-  novatel.use = "NovAtel SPAN (OEM7): rotation from the IMU body to a frame of interest";
-  novatel.source =
-      "docs.novatel.com: OEM7 command SETINSROTATION; Waypoint application note on rotations in "
-      "SPAN and Inertial Explorer";
-  novatel.product = {2, 0, 1};
-  novatel.axes = "rfu";
+using Angles = std::array<MountingAngle, 3>;
+const Angles kXyz{{{"X", 'x'}, {"Y", 'y'}, {"Z", 'z'}}};
+const Angles kRollPitchYaw{{{"roll", 'x'}, {"pitch", 'y'}, {"yaw", 'z'}}};
+const Angles kYawPitchRoll{{{"yaw", 'z'}, {"pitch", 'y'}, {"roll", 'x'}}};
+const Angles kOmegaPhiKappa{{{"omega", 'x'}, {"phi", 'y'}, {"kappa", 'z'}}};
+const Angles kPitchRollHeading{{{"pitch", 'x'}, {"roll", 'y'}, {"heading", 'z'}}};
 
-  return {aerospace, applanix, novatel};
-}
-
-/// Of robotics and photogrammetry, and that of this library.
-std::vector<MountingConvention> otherConventions() {
-  MountingConvention ros;
-  ros.name = "ros";
-  ros.use = "ROS: rpy and xyz of an origin in URDF, body forward, left, up";
-  ros.source = "ROS REP 103; wiki.ros.org/urdf/XML/joint, element origin";
-  ros.angles = {{{"roll", 'x'}, {"pitch", 'y'}, {"yaw", 'z'}}};
-  ros.product = {2, 1, 0};
-  ros.axes = "flu";
-  ros.unit = "rad";
-
-  MountingConvention mrpt = ros;
-  mrpt.name = "zyx_flu";
-  mrpt.use = "yaw, pitch, roll about moving axes, body forward, left, up (CPose3D of MRPT)";
-  mrpt.source = "docs.mrpt.org: class mrpt::poses::CPose3D";
-  mrpt.angles = {{{"yaw", 'z'}, {"pitch", 'y'}, {"roll", 'x'}}};
-  mrpt.product = {0, 1, 2};
-  mrpt.unit = "deg";
-
-  MountingConvention photogrammetric;
-  photogrammetric.name = "opk_rfu";
-  photogrammetric.use = "photogrammetry: omega, phi, kappa about moving axes x, y, z";
-  photogrammetric.source = "doc.arcgis.com: Reality Studio, coordinate system conventions";
-  photogrammetric.angles = {{{"omega", 'x'}, {"phi", 'y'}, {"kappa", 'z'}}};
-  photogrammetric.axes = "rfu";
-
-  MountingConvention own;
-  own.name = "pcl_als";
-  own.use = "parameters of calibration.json: pitch, roll, heading of the boresight";
-  own.source = "pcl_als, README of the module trajectory; Habib et al. 2011, Eq. (1)";
-  own.angles = {{{"pitch", 'x'}, {"roll", 'y'}, {"heading", 'z'}}};
-  own.product = {2, 0, 1};
-  own.axes = "rfu";
-  own.unit = "arcsec";
-
-  return {ros, mrpt, photogrammetric, own};
+std::vector<Definition> definitions() {
+  return {
+      {"zyx_frd",
+       "aerospace: yaw, pitch, roll about moving axes, body forward, right, down",
+       "Swift Navigation SBP, message MSG_ORIENT_EULER; OPC UA Relative Spatial Location, "
+       "RpyOrientationType",
+       kRollPitchYaw,
+       {2, 1, 0},
+       "frd",
+       "deg"},
+      {"applanix",
+       "Applanix: mounting angles of a sensor with respect to the reference frame",
+       "Applanix, POS MV V5 Installation and Operation Guide (2017), mounting angles; LVX User "
+       "Manual (2021), section 4.6.11, Tait-Bryan sequence",
+       kXyz,
+       {2, 1, 0},
+       "frd",
+       "deg"},
+      {"novatel",
+       "NovAtel SPAN (OEM7): rotation from the IMU body to a frame of interest",
+       "docs.novatel.com: OEM7 command SETINSROTATION; Waypoint application note on rotations in "
+       "SPAN and Inertial Explorer",
+       kXyz,
+       {2, 0, 1},
+       "rfu",
+       "deg"},
+      {"ros",
+       "ROS: rpy and xyz of an origin in URDF, body forward, left, up",
+       "ROS REP 103; wiki.ros.org/urdf/XML/joint, element origin",
+       kRollPitchYaw,
+       {2, 1, 0},
+       "flu",
+       "rad"},
+      {"zyx_flu",
+       "yaw, pitch, roll about moving axes, body forward, left, up (CPose3D of MRPT)",
+       "docs.mrpt.org: class mrpt::poses::CPose3D",
+       kYawPitchRoll,
+       {0, 1, 2},
+       "flu",
+       "deg"},
+      {"opk_rfu",
+       "photogrammetry: omega, phi, kappa about moving axes x, y, z",
+       "doc.arcgis.com: Reality Studio, coordinate system conventions",
+       kOmegaPhiKappa,
+       {0, 1, 2},
+       "rfu",
+       "deg"},
+      {"pcl_als",
+       "parameters of calibration.json: pitch, roll, heading of the boresight",
+       "pcl_als, README of the module trajectory; Habib et al. 2011, Eq. (1)",
+       kPitchRollHeading,
+       {2, 0, 1},
+       "rfu",
+       "arcsec"},
+  };
 }
 
 std::vector<MountingConvention> documentedConventions() {
-  std::vector<MountingConvention> conventions = conventionsOfNavigation();
-  for (MountingConvention& convention : otherConventions())
-    conventions.push_back(std::move(convention));
+  std::vector<MountingConvention> conventions;
+  for (const Definition& definition : definitions()) conventions.push_back(definition.convention());
   return conventions;
 }
 

@@ -47,6 +47,10 @@ Eigen::MatrixXd inverseOfRegular(const Eigen::MatrixXd& matrix);
 /// Inverse by LU with complete pivots; empty (0 x 0) for a matrix that is numerically singular.
 Eigen::MatrixXd inverseOrEmpty(const Eigen::MatrixXd& matrix);
 
+/// Inverse of a symmetric positive definite matrix whose rows may have different units, by LDLᵀ of
+/// the matrix scaled to unit diagonal; empty (0 x 0) for one that is not, or that is not finite.
+Eigen::MatrixXd inverseOfDefinite(const Eigen::MatrixXd& matrix);
+
 /// Orthonormal columns that span what no linear combination of the columns of \a design reaches, by
 /// QR with pivots: n rows and n - rank(design) columns.
 Eigen::MatrixXd orthogonalComplement(const Eigen::MatrixXd& design);

@@ -26,17 +26,6 @@ Canvas drawPairs(const CalibrationResult& result, PictureSize size = {});
 /// none.
 Canvas drawResiduals(const CalibrationResult& result, PictureSize size = {});
 
-/// "lever arm x"
-std::string plainName(SystemParameter parameter);
-
-/// Decimals that show two significant digits of a standard deviation, in its unit; six where it is
-/// unknown.
-int decimalsOfStd(double std);
-
-/// An estimate with its standard deviation to two digits, "−90.13 ± 0.28 arcsec", or why there is
-/// none: as written in pictures and reports.
-std::string estimateText(SystemParameter parameter, const ParameterEstimate& estimate);
-
 /// Errors of the scan angle over the scan angle, with their standard deviations. UsageError without
 /// such a curve.
 Canvas drawScanAngleCurve(const CalibrationResult& result, PictureSize size = {});

@@ -33,6 +33,12 @@ struct CalibrationMission {
   /// flight does not determine.
   SystemVector bias, std;
 
+  /// A priori standard deviation of a parameter: that of a held one, else the largest bias that is
+  /// accepted.
+  double priorStd(SystemParameter p) const {
+    const double held = held_std[indexOf(p)];
+    return held > 0.0 ? held : largestBias(p);
+  }
   bool determines(SystemParameter p) const { return std::isfinite(std[indexOf(p)]); }
 };
 

@@ -50,9 +50,9 @@ std::vector<TimeStretch> splitTrack(const SwathTrack& track, const Trajectory* f
  * A line that follows another one leads back: its course differs by more than 135 degrees, or it
  * begins behind the end of the other. A line that continues behind a gap (a lake, the border of a
  * tile) or a bend does not, nor one that begins earlier than the platform can have turned back, in
- * a half circle at twice the acceleration of gravity: that are the two looks of a conical scanner
- * at a small area, ahead and behind. Lines must hold at least half of the points: where a platform
- * mostly hovers or turns, what a line is cannot be told.
+ * a half circle at twice the acceleration of gravity: such returns are the fore and
+ * aft half-scans of a conical scanner over a small area. Lines must hold at least half of the
+ * points: where a platform mostly hovers or turns, what a line is cannot be told.
  */
 bool leadBack(const SwathTrack& track, const std::vector<TimeStretch>& stretches);
 
