@@ -11,7 +11,10 @@ calibration() {  # NAME OPTION…
     "$block/trajectory.csv" -control "$block/control.csv" -model rigorous -quiet -output "$1.json" \
     "${@:2}"
 }
-calibration c1
+calibration c1 -gps_week 2200 -system_name 'scanner 12'
+# Second 401003 of week 2200, which begins on 2022-03-06.
+check "the day of the flight" grep -q '"date": "2022-03-10"' c1.json
+check "the name of the system" grep -q '"system_name": "scanner 12"' c1.json
 cp c1.json copy.json
 # The others differ by what is written into them: roll and its date.
 moved() {  # FILE ROLL ID: the same calibration with another roll

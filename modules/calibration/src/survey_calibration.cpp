@@ -11,6 +11,7 @@
 #include <pcl_als/common/file_version.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/io/measured_box.h>
+#include <pcl_als/io/new_las_file.h>
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/survey/place_in_block.h>
@@ -271,7 +272,9 @@ std::optional<long> dayOf(const PointFileSources& file, std::optional<int> week)
   for (const PointSource& source : file.sources)
     if (source.hasTimes()) times.add(source.first_time);
   if (times.empty()) return {};
-  const bool is_absolute = file.info.time_kind == TimeKind::adjusted_standard;
+  // Many files state adjusted standard times and hold seconds of the week.
+  const bool is_absolute = file.info.time_kind == TimeKind::adjusted_standard &&
+                           probableTimeKind(times.first, times.last) == file.info.time_kind;
   if (!is_absolute && !week) return {};
   const double origin = is_absolute ? kAdjustedOffset : kSecondsPerWeek * *week;
   const double day = std::floor((times.first + origin) / kSecondsPerDay);
