@@ -30,7 +30,7 @@ CommandLine commandLine() {
   line.setArguments(
       {{"corrected", 1, app::Arguments::kAnyNumber}, {"", 1, 1, {".las", ".laz", ".pcd"}}});
   app::addFlightOptions(line);
-  line.addInputFile("calibration", "calibration.json with the biases");
+  line.addInputFile("calibration", "calibration.json or history.json with the biases");
   line.addText("biases",
                "NAME=VALUE,... instead of a calibration: assumed - true, in m, arcsec or 1; "
                "names as in calibration.json");
@@ -42,10 +42,12 @@ CommandLine commandLine() {
   line.addFlag("invert", "apply the biases instead of removing them");
   line.addFlag("strip_corrections",
                "with -calibration: also correct the estimated trajectory errors of each strip");
-  line.addFlag("check",
-               "with -calibration: compare the strips, of which two at least must overlap, with "
-               "each other before they are corrected, and state whether the calibration holds for "
-               "them (reads them twice more)");
+  line.addChoice("check",
+                 "whether the strips, of which two at least must overlap, are compared with each "
+                 "other before they are corrected, to see whether the calibration holds for them "
+                 "(reads them twice more; exit status 3 where it does not): where -calibration is "
+                 "of another flight and -corrected is given, always, or never",
+                 {"other_flight", "yes", "no"}, "other_flight");
   line.makeDependent("check", "calibration");
   line.exclude({"check", "invert"});
   line.addFlag(
@@ -127,9 +129,18 @@ void applyToMany(const CommandLine& line, const std::vector<std::string>& files,
       if (!text.empty()) app::remark(line, files[i] + ": " + text);
 }
 
-/// States whether the calibration holds for the strips (-check).
-void check(const CommandLine& line, const CalibrationResult& calibration,
-           const std::shared_ptr<const Trajectory>& flight) {
+bool isToBeChecked(const CommandLine& line, const CalibrationResult& calibration,
+                   const Trajectory& flight) {
+  if (line.has("biases") || line.has("invert") || line.text("check") == "no") return false;
+  return line.text("check") == "yes" ||
+         (line.has("corrected") && mayBeOfAnotherFlight(calibration, line.inputs(), flight));
+}
+
+/// States whether the calibration holds for the strips. Returns why it does not; empty if it does,
+/// or is not checked.
+std::string check(const CommandLine& line, const CalibrationResult& calibration,
+                  const std::shared_ptr<const Trajectory>& flight) {
+  if (!isToBeChecked(line, calibration, *flight)) return {};
   CalibrationCheckOptions options;
   options.gps_week = app::gpsWeek(line);
   options.threads = line.threads();
@@ -137,11 +148,10 @@ void check(const CommandLine& line, const CalibrationResult& calibration,
   options.processes = app::processes();
   const CalibrationCheck found =
       checkCalibration(line.inputs(), calibration, flight, options, app::progressOf(line));
-  const std::string text = found.text(line.text("calibration"));
-  if (found.holds())
-    app::remark(line, text);
-  else if (isRoot(app::processes()))
-    std::cerr << "pcl_als_apply: warning: " << text << std::endl;
+  std::string text = found.text(line.text("calibration"));
+  if (!found.holds()) return text;
+  app::remark(line, text);
+  return {};
 }
 
 int apply(const CommandLine& line) {
@@ -159,18 +169,19 @@ int apply(const CommandLine& line) {
   app::remark(line,
               (options.invert ? "putting in: " : "taking out: ") + describeBiases(calibration));
 
-  if (line.has("check")) check(line, calibration, flight);
+  const std::string doubt = check(line, calibration, flight);
   if (line.has("corrected")) {
     applyToMany(line, files, calibration, flight, options);
-    return app::kDone;
+    return app::conclude(line, doubt);
   }
   FileCorrectionResult result = correctPointFile(files[0], line.output(), calibration, flight,
                                                  options, app::progressOf(line));
   app::remarks(line, result.remarks);
-  if (!result.deviation_raster) return app::kDone;
-  result.deviation_raster->grid.crs = reference.crs;
-  writeRaster(line.text("uncertainty_raster"), *result.deviation_raster);
-  return app::kDone;
+  if (result.deviation_raster) {
+    result.deviation_raster->grid.crs = reference.crs;
+    writeRaster(line.text("uncertainty_raster"), *result.deviation_raster);
+  }
+  return app::conclude(line, doubt);
 }
 
 }  // namespace

@@ -31,8 +31,7 @@ CommandLine commandLine() {
   line.addText("system_name",
                "name of the instrument whose calibrations are used (default: all have the same "
                "name, or none)");
-  line.addText("system",
-               "name of the system, of calibrations with several (default: the first one)");
+  line.addText("system", "name of the system, needed for calibrations with several");
   line.addText("change",
                "standard deviations of changes between missions that are known, e.g. "
                "boresight_roll=2,lever_arm_x=0.005 (m, arcsec; default: estimated)");

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# Sourced by share/demo/run.sh and tests/run.sh: what a fresh Debian (12 or 13) needs, and how the
+# Sourced by share/demo/run.sh, share/benchmark/run.sh and tests/run.sh: what a fresh Debian (12 or 13) needs, and how the
 # project is configured there. Strict mode and the C locale are set for the caller.
 set -euo pipefail
 export LC_ALL=C
@@ -31,6 +31,9 @@ pcl_als_packages_test=(
   python3-numpy python3-matplotlib python3-venv      # the Python package, its examples, its installation
 )
 
+pcl_als_packages_benchmark=(python3-numpy)
+pcl_als_packages_open3d=(python3-open3d)
+
 _pcl_als_present() {  # package[:program-or-file]
   local package=${1%%:*} witness=${1#*:}
   [[ $witness == "$package" ]] || {
@@ -40,7 +43,7 @@ _pcl_als_present() {  # package[:program-or-file]
   [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) == installed ]]
 }
 
-# pcl_als_install build [test]: installs what is missing with apt-get. Asks for nothing, touches no
+# pcl_als_install GROUP…: installs what is missing with apt-get. Asks for nothing, touches no
 # network when all is there.
 pcl_als_install() {
   local group entry missing=()

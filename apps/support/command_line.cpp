@@ -16,6 +16,7 @@
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/common/thread_limit.h>
 
+#include "argument_files.h"
 #include "option_text.h"
 #include "output_check.h"
 
@@ -23,10 +24,12 @@ namespace pcl_als::app {
 
 namespace {
 
-/// "-output" or "--output=x" → "output".
+/// "-line_fit", "--line_fit=x" or "--line-fit" → "line_fit".
 std::string nameIn(const std::string& word) {
   const std::size_t start = word.compare(0, 2, "--") == 0 ? 2 : 1;
-  return word.substr(start, word.find('=') - start);
+  std::string name = word.substr(start, word.find('=') - start);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
 }
 
 /// UsageError unless an option takes the value.
@@ -168,7 +171,7 @@ bool CommandLine::parse(int argc, const char* const* argv) {
   addFlag("help", "print this help; -h is the same");
   addFlag("list_options", "print the options as a table of values separated by tabs");
   addFlag("version", "print the version");
-  read({argv + 1, argv + argc});
+  read(withArgumentFiles({argv + 1, argv + argc}));
   const std::pair<const char*, std::function<std::string()>> answers[] = {
       {"help", [this] { return help(); }},
       {"version", [this] { return toolAndVersion() + '\n'; }},
@@ -252,6 +255,12 @@ void CommandLine::refuseUnknown(const std::string& option) const {
 void CommandLine::takeArguments() {
   const Arguments& wanted = form();
   const std::size_t out = wanted.out.empty() ? 0 : 1;
+  if (wanted.most == Arguments::kAnyNumber && arguments_.size() >= out) {
+    const auto inputs_end = arguments_.end() - static_cast<std::ptrdiff_t>(out);
+    std::vector<std::string> all = withFilesOfFolders({arguments_.begin(), inputs_end});
+    all.insert(all.end(), inputs_end, arguments_.end());
+    arguments_ = std::move(all);
+  }
   if (arguments_.size() < wanted.least + out || arguments_.size() > wanted.most + out)
     throw UsageError("usage: " + tool_ + ' ' + synopsis_ + " (see " + tool_ + " -h)");
   inputs_.assign(arguments_.begin(), arguments_.end() - static_cast<std::ptrdiff_t>(out));
@@ -358,7 +367,12 @@ std::string CommandLine::toolAndVersion() const {
 }
 
 std::string CommandLine::help() const {
+  const bool takes_folders = std::any_of(forms_.begin(), forms_.end(), [](const Arguments& form) {
+    return form.most == Arguments::kAnyNumber;
+  });
   return tool_ + ": " + purpose_ + "\n\nUsage: " + tool_ + ' ' + synopsis_ +
+         "\n\n@FILE stands for the words in FILE" +
+         (takes_folders ? ", a folder for the point files in it." : ".") +
          "\n\nOptions (one dash or two):\n" + optionHelp(options_) + "\nExample:\n  " + example_ +
          "\n\nExit status: 0 done, 1 wrong usage, 2 unusable input, 3 no reliable numerical "
          "answer.\n";

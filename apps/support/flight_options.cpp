@@ -10,6 +10,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/crs/crs.h>
+#include <pcl_als/io/prior_file.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/io/trajectory_writer.h>
 #include <pcl_als/processing/flight_reconstruction.h>
@@ -117,7 +118,7 @@ void requireUsable(const CommandLine& line, const std::string& file,
 
 CalibrationResult usableCalibration(const CommandLine& line) {
   const std::string file = line.text("calibration");
-  CalibrationResult calibration = readCalibration(file);
+  CalibrationResult calibration = readPriorFile(file).calibration();
   requireUsable(line, file, calibration.verdict, {"applied", "applies"});
   return calibration;
 }

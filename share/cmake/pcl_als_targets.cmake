@@ -69,7 +69,8 @@ function(_pcl_als_add_x86_64_v3 target sources libraries)
     COMPONENT libraries NAMELINK_SKIP)
 endfunction()
 
-# The manual page of a tool, from what it prints with -h, with the page of the manual about its use.
+# The manual page of a tool, from what it prints with -h, with the page of the manual about its use,
+# and its completion in bash, from -list_options.
 function(_pcl_als_man_page target tool manual)
   set(script ${PROJECT_SOURCE_DIR}/share/cmake/man_page.awk)
   set(page ${CMAKE_BINARY_DIR}/man/${tool}.1)
@@ -78,8 +79,17 @@ function(_pcl_als_man_page target tool manual)
     COMMAND $<TARGET_FILE:${target}> -h > ${page}.txt
     COMMAND awk -v tool=${tool} -v version=${PROJECT_VERSION}
       -v manual=${manual} -f ${script} ${page}.txt > ${page})
-  add_custom_target(${target}_man ALL DEPENDS ${page})
+  set(completion_script ${PROJECT_SOURCE_DIR}/share/cmake/completion.awk)
+  set(completion ${CMAKE_BINARY_DIR}/completions/${tool})
+  add_custom_command(OUTPUT ${completion} DEPENDS ${target} ${completion_script} VERBATIM
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_BINARY_DIR}/completions
+    COMMAND $<TARGET_FILE:${target}> -list_options > ${completion}.txt
+    COMMAND awk -v tool=${tool} -f ${completion_script} ${completion}.txt > ${completion}
+    COMMAND ${CMAKE_COMMAND} -E rm ${completion}.txt)
+  add_custom_target(${target}_man ALL DEPENDS ${page} ${completion})
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
+  install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions
+    COMPONENT tools)
 endfunction()
 
 # als_add_app(VERB calibrate MANUAL questions.md#… SOURCES … MODULES …): the tool pcl_als_VERB

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# share/dev/fresh_root.sh [options] [SUITE [demo|tests|both]]: runs the commands of the README in a new
-# Debian (SUITE: bookworm, the default, trixie, …) that holds nothing but apt: share/demo/run.sh,
-# tests/run.sh, or one after the other (both, the default), from the committed state of the sources.
+# share/dev/fresh_root.sh [options] [SUITE [demo|tests|both|benchmark]]: runs the commands of the README
+# in a new Debian (SUITE: bookworm, the default, trixie, …) that holds nothing but apt: share/demo/run.sh,
+# tests/run.sh, one after the other (both, the default), or share/benchmark/run.sh, from the committed
+# state of the sources.
 # Ends with status 1 if one fails or the compiler, CMake or the packager warns. Needs root and Debian.
 #   -c DIR  ccache's folder, which may be that of this machine: objects of the same compiler are reused
 #   -d DIR  scratch folder for the new system, which needs about 12 GB (default: below /tmp)
@@ -14,7 +15,7 @@
 # SUITE.tests.log. Mounts are those of a name space of their own, which ends with its programs.
 set -euo pipefail
 export LC_ALL=C
-usage() { sed -n '5,14s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit "$1"; }
+usage() { sed -n '5,15s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit "$1"; }
 source=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P)
 cache='' scratch='' keep=0 mirror=''
 while getopts c:d:km:h option; do
@@ -29,7 +30,7 @@ while getopts c:d:km:h option; do
 done
 shift $((OPTIND - 1))
 suite=${1:-bookworm} what=${2:-both}
-[[ $# -le 2 && $what =~ ^(demo|tests|both)$ ]] || usage 1
+[[ $# -le 2 && $what =~ ^(demo|tests|both|benchmark)$ ]] || usage 1
 [[ $(id -u) == 0 ]] || { echo "fresh_root.sh: run as root: it makes and mounts file systems" >&2; exit 1; }
 scratch=${scratch:-$(mktemp -d /tmp/pcl_als_fresh.XXXXXX)}
 mkdir -p -- "$scratch"
@@ -84,10 +85,10 @@ warned() {
 status=0
 echo "Making $root"
 make_root
-for name in demo tests; do
-  [[ $what == "$name" || $what == both ]] || continue
-  command=tests/run.sh
-  [[ $name == tests ]] || command=share/demo/run.sh
+declare -A commands=([demo]=share/demo/run.sh [tests]=tests/run.sh [benchmark]=share/benchmark/run.sh)
+[[ $what != both ]] || what="demo tests"
+for name in $what; do
+  command=${commands[$name]}
   log=$scratch/$suite.$name.log started=$SECONDS
   echo "Running $command in $suite: $log"
   if inside "$command" >"$log" 2>&1; then result=passed; else result=FAILED status=1; tail -n 40 "$log"; fi

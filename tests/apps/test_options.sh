@@ -61,12 +61,46 @@ expect 1 "option -uncertainty_cell needs -uncertainty_raster" apply none.las x.l
 expect 1 "options -terrain and -ground_slope exclude each other" plan -lines none.csv -terrain none.asc -ground_slope 3
 expect 1 "option -strip_corrections needs -corrected" calibrate none.las -trajectory none.csv -output c.json -strip_corrections
 
+# Dashes in names, words of the command in a file, folders of point files.
+expect 1 "option -strip_corrections needs -corrected" calibrate none.las -trajectory none.csv -output c.json \
+  --strip-corrections
+expect 1 "option -cell: '-1' is not a number" info "$block" --cell=-1
+mkdir -p 'a folder/nested' none && cp "$block"/strip[12].las 'a folder' && cp "$block/strip3.las" 'a folder/nested'
+printf '# two strips\n"a folder/strip1.las"\t%s -json @name.json # as it is\n' "'a folder'/strip2.las" >words.txt
+expect 0 "2 files" info @words.txt
+check "a word that begins with @ in the file" test -s @name.json
+expect 0 "2 files" info 'a folder'
+expect 0 "3 strips" info 'a folder' 'a folder/nested' -cell 20
+expect 2 "none: " info none
+expect 1 "given twice" info 'a folder' 'a folder/strip1.las'
+expect 2 "none.txt: there is no such file" info @none.txt
+printf '"open' >open.txt
+expect 1 "open.txt: a quote is not closed" info @open.txt
+printf 'a\0b' >zero.txt
+expect 2 "zero.txt: is no file of options" info @zero.txt
+
+# Completion in the shell.
+completion=$bin/../completions
+checks=$((checks + 1))
+completed() {  # WORD…: what bash offers for the last one
+  bash -c 'source "$1/pcl_als_apply"; COMP_WORDS=("${@:2}"); COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
+    _pcl_als_apply && printf "%s\n" "${COMPREPLY[@]}"' bash "$completion" "$@" | sort | tr '\n' ' '
+}
+[[ $(completed pcl_als_apply -unc) == "-uncertainty -uncertainty_cell -uncertainty_raster " ]] ||
+  failed "completion of an option: $(completed pcl_als_apply -unc)"
+checks=$((checks + 1))
+[[ $(completed pcl_als_apply x.las -model quas) == "quasi_rigorous " ]] || failed "completion of a word"
+checks=$((checks + 1))
+[[ $(completed pcl_als_apply 'a folder/str') == "a folder/strip1.las a folder/strip2.las " ]] ||
+  failed "completion of a file: $(completed pcl_als_apply 'a folder/str')"
+for tool in "$bin"/pcl_als_*; do check "completion of $tool" test -s "$completion/${tool##*/}"; done
+
 for tool in apply calibrate info; do expect 1 "usage: pcl_als_$tool" "$tool"; done
 
 # A misspelt option is answered with the nearest one, where there is one.
 expect 1 "trajctory'; did you mean -trajectory?" calibrate -trajctory x
 expect 1 "did you mean -trajectory?" apply -traject x  # not -trajectory_units, which continues it
-expect 1 "did you mean -strip_corrections?" calibrate -strip-corrections
+expect 1 "did you mean -strip_corrections?" calibrate -strip-correction
 expect 1 "did you mean -output?" calibrate -outptu x.json
 expect 1 "did you mean -quality_level?" check --qualitylevel=2
 check "no suggestion for what is near nothing" sh -c \

@@ -59,12 +59,20 @@ absent wrong.json
 
 # Whether a calibration holds.
 flight=(-trajectory now/trajectory.csv -calibration full.json)
-expect 0 "the calibration full.json holds for these strips: misfit" apply now/strip*.las -corrected checked "${flight[@]}" -check
-expect 0 "" apply now/strip*.las -corrected unchecked "${flight[@]}"
-check "a check changes no point" cmp checked/strip1.las unchecked/strip1.las
-expect 0 "was not checked" apply now/strip1.las one.las "${flight[@]}" -check
-run apply moved/strip*.las -corrected moved_corrected -trajectory moved/trajectory.csv -calibration full.json -check
-checks=$((checks + 1))
-[[ $status == 0 && $(<err.txt) == *"warning: the calibration full.json does not hold for these strips: "*"boresight_roll differs by "* ]] ||
-  failed "apply -check of strips with another roll names it"
+holds="the calibration full.json holds for these strips: misfit"
+expect 0 "$holds" apply now/strip*.las -corrected checked "${flight[@]}" -check yes
+# A combination of flights is checked by itself; the calibration of the flight is not.
+expect 0 "History of 1 calibration" history full.json -output combined.json
+combined=(-trajectory now/trajectory.csv -calibration combined.json)
+expect 0 "${holds/full/combined}" apply now/strip*.las -corrected by_itself "${combined[@]}"
+expect 0 "" apply full/strip*.las -corrected full_corrected -trajectory full/trajectory.csv -calibration full.json
+check "no check without need" bash -c '! grep -q "holds for" out.txt err.txt'
+expect 0 "" apply now/strip*.las -corrected unchecked "${combined[@]}" -check no
+check "no check where it is not wanted" bash -c '! grep -q "holds for" out.txt err.txt'
+check "a check changes no point" cmp by_itself/strip1.las unchecked/strip1.las
+expect 0 "was not checked" apply now/strip1.las one.las "${flight[@]}" -check yes
+expect 1 "check" apply now/strip1.las one.las "${flight[@]}" -check yes -invert
+expect 3 "combined.json does not hold for these strips: *boresight_roll differs by" apply moved/strip*.las \
+  -corrected moved_corrected -trajectory moved/trajectory.csv -calibration combined.json
+check "all strips are written" test -s moved_corrected/strip5.las
 finish

@@ -91,6 +91,19 @@ TEST(AreaMatcher, MeasuresAVerticalShiftInBothDirections) {
   EXPECT_LT(forward, static_cast<int>(found.size()) - 200);
 }
 
+// Noise of 2 cm of points 0.5 m apart tilts the vertices around a triangle by 0.01: of a slope of
+// 0.04, a part of them is significant at five standard deviations.
+TEST(AreaMatcher, PairsOfOneSlopeHaveOneDirection) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  auto a = sampled(1, -8.0, 58.0, {0, 0, 0}), b = sampled(2, -8.0, 58.0, {0, 0, 0});
+  for (auto* strip : {&a, &b})
+    for (LidarReturn& p : *strip) p.position.z() = 100.0 + 0.04 * p.position.x() + noise(random);
+  const AreaObservations found = matcherOf(a, b).match({{0, 1}}, 0.5, flight(), NoiseModel());
+  ASSERT_GT(found.size(), 500U);
+  for (const PairObservation& o : found) EXPECT_NEAR(o.normal.x(), -0.04, 0.01);
+}
+
 TEST(AreaMatcher, DividesPairsByDistance) {
   const Trajectory trajectory = flight();
   const auto a = sampled(1, -8.0, 58.0, {0, 0, 0});

@@ -44,7 +44,7 @@ class HistoryFiles : public ::testing::Test {
   std::string refusal() const {
     try {
       readHistoryMissions(input_);
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {
       return error.what();
     }
     return {};

@@ -68,6 +68,7 @@ void expectCovariance(const BiasPrior& prior, double y, double pitch) {
 TEST_F(PriorFileTest, ACalibrationChangesByTheDefault) {
   const PriorFile file = read(calibrationJson(calibration()));
   EXPECT_FALSE(file.is_history);
+  EXPECT_DOUBLE_EQ(file.calibration()[P::lever_arm_y].std, file.earlier[P::lever_arm_y].std);
   const BiasPrior prior = file.prior();
   // sqrt(0.004^2 + 0.005^2), sqrt(3^2 + 5^2)
   expectCovariance(prior, 0.00640312424, 5.83095189);
@@ -85,6 +86,14 @@ TEST_F(PriorFileTest, AHistoryStatesTheChange) {
   expectCovariance(file.prior(), 0.005, 5.0);
   EXPECT_DOUBLE_EQ(file.change_std[indexOf(P::boresight_roll)],
                    missionChangeStd()[indexOf(P::boresight_roll)]);
+  // As a calibration: the same standard deviations; 0.5 * 0.004 / 0.005 * 3 / 5.
+  const CalibrationResult applied = file.calibration();
+  EXPECT_NEAR(applied[P::lever_arm_y].std, 0.005, 1e-9);
+  EXPECT_NEAR(applied[P::boresight_pitch].std, 5.0 * kArcsec, 1e-12);
+  EXPECT_NEAR(applied.correlation(0, 1), 0.24, 1e-6);
+  EXPECT_NEAR(applied.correlation(1, 0), 0.24, 1e-6);
+  EXPECT_DOUBLE_EQ(applied.correlation(1, 1), 1.0);
+  EXPECT_DOUBLE_EQ(applied[P::lever_arm_y].bias, 0.05);
   history["change_std"]["boresight_pitch"] = -1.0;
   EXPECT_NE(refusal(history.dump()).find("change_std.boresight_pitch' must not be negative"),
             std::string::npos);

@@ -102,7 +102,7 @@ TEST(MountingReport, ChoosesTheSystem) {
   EXPECT_TRUE(remarks(right, "offset by 0.000, 0.000, 0.100 m"));
   input.system.clear();
   EXPECT_EQ(refusal(result, input),
-            "the calibration has several systems; name the one of this mounting: left, right");
+            "the calibration has several systems; name one of them: left, right");
   input.system = "middle";
   EXPECT_EQ(refusal(result, input), "the calibration has no system 'middle' (left, right)");
 }

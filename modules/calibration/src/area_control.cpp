@@ -74,7 +74,8 @@ void AreaMatcher::matchHeight(const ControlPoint& point, const StripPart& part, 
   if (!criterion_.isSatisfiedBy(quality, part.median_edge) ||
       !foot.atFoot(part, *match, quality, vertex))
     return;
-  found.push_back(controlObservation(point, part, measuringDirection(quality), foot));
+  found.push_back(
+      controlObservation(point, part, measuringDirection(part, match->triangle, quality), foot));
 }
 
 void AreaMatcher::matchPatch(const ControlPoint& point, const StripPart& part, double threshold,

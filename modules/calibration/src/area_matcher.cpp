@@ -115,15 +115,20 @@ SurfaceCriterion AreaMatcher::criterionOf(const StripPart& part) const {
   return criterion;
 }
 
-AreaMatcher::Direction AreaMatcher::measuringDirection(const PatchQuality& quality) const {
-  const Eigen::Vector3d& normal = quality.plane_normal;
-  const double tilt = criterion_.tiltStd(quality);
+AreaMatcher::Direction AreaMatcher::measuringDirection(const StripPart& part, std::int32_t triangle,
+                                                       const PatchQuality& quality) const {
+  const GroundPlanes::Plane* ground =
+      part.ground.under(part.surface.tin().triangles()[triangle].vertex);
+  const Eigen::Vector3d& normal = ground != nullptr ? ground->normal : quality.plane_normal;
+  const double tilt = ground != nullptr ? ground->tilt_std : criterion_.tiltStd(quality);
   if (std::hypot(normal.x(), normal.y()) < kSignificantTilt * tilt)
     return {Eigen::Vector3d::UnitZ(), 0.0};
   return {normal, tilt * tilt};
 }
 
 void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
+  constexpr double kGroundCell = 10.0;  // typical edges
+  part.ground = GroundPlanes(part.biased, kGroundCell * part.median_edge, criterion_.roughness);
   // The normals of single triangles are noisy and only select triangles that are examined; slope
   // and aspect are those of the neighbourhood's plane. Neither depends on the point itself:
   // otherwise the noise of points selected by their aspect would not have a mean of zero.
@@ -227,6 +232,7 @@ void AreaMatcher::correct(const std::vector<StripCorrection>& corrections,
     if (part.biased.empty()) continue;
     std::vector<Eigen::Vector3d> points = reconstructed(part, corrections[strip]);
     removeSourceEffects(part, trajectory, points);
+    part.ground.fit(points);
     part.surface.movePoints(std::move(points));
   }
 }
@@ -253,12 +259,11 @@ void AreaMatcher::keepSpecial(const PointGeometry* point, const PointGeometry& f
 }
 
 void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
-                          const PatchQuality& quality, PairObservation& observation) const {
+                          const Direction& direction, PairObservation& observation) const {
   observation.time_a = point.time;
   observation.time_b = foot.time;
   observation.lateral = static_cast<float>(foot.held ? point.lateral : foot.lateral);
   observation.height = static_cast<float>(foot.held ? point.height : foot.height);
-  const Direction direction = measuringDirection(quality);
   const Eigen::Vector3d& normal = direction.normal;
   observation.normal = normal;
   observation.tilt =
@@ -344,7 +349,8 @@ void AreaMatcher::matchSurfaces(Matching& matching, std::size_t a, std::size_t b
         !matching.foot.atFoot(to, *match, quality, matching.vertex))
       continue;
     observation.point = i;
-    measure(matching.point, matching.foot, quality, observation);
+    measure(matching.point, matching.foot, measuringDirection(to, match->triangle, quality),
+            observation);
     if (std::abs(match->signed_normal_distance) > matching.limits.near) {
       found.far.push_back(observation);
       continue;

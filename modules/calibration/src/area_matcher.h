@@ -22,6 +22,7 @@
 #include <pcl_als/trajectory/bias_evaluator.h>
 #include <pcl_als/trajectory/trajectory.h>
 
+#include "ground_planes.h"
 #include "noise_model.h"
 #include "pair_observation.h"
 #include "pair_selection.h"
@@ -198,6 +199,7 @@ class AreaMatcher {
     std::vector<std::int8_t> turning;  ///< of the mirror: 1 to the left, -1 to the right
     std::vector<std::uint8_t> channel, user_data;
     PatchSurface surface;
+    GroundPlanes ground;  ///< of the points as corrected last
     std::vector<std::int32_t> candidates;
     std::vector<double> roughness;  ///< metres, of the neighbourhoods examined on gentle slopes
     double median_edge = 0.0;       ///< metres, in plan
@@ -236,21 +238,22 @@ class AreaMatcher {
   /// noisier.
   SurfaceCriterion criterionOf(const StripPart& part) const;
 
-  /// The direction in which the distance of a pair is measured: the normal of the neighbourhood's
-  /// plane, which is less noisy than that of the triangle, or the vertical where the tilt of the
-  /// plane is not significant. Noise of the normal would otherwise act as information about plan
-  /// positions.
+  /// The direction in which the distance of a pair is measured: the normal of the plane of the cell
+  /// where the triangle lies on it (GroundPlanes), otherwise of the neighbourhood's plane, which is
+  /// less noisy than that of the triangle; the vertical where the tilt of the plane is not
+  /// significant. Noise of the normal would otherwise act as information about plan positions.
   struct Direction {
     Eigen::Vector3d normal;
     double variance = 0.0;  ///< rad^2
   };
-  Direction measuringDirection(const PatchQuality& quality) const;
+  Direction measuringDirection(const StripPart& part, std::int32_t triangle,
+                               const PatchQuality& quality) const;
   /// The pairs of the points of one surface with the patches of another.
   struct Matching;
   void matchSurfaces(Matching& matching, std::size_t a, std::size_t b,
                      PairsByDistance& found) const;
   /// Fills the equation of the pair of a point and its foot in a patch.
-  void measure(const PointGeometry& point, const PointGeometry& foot, const PatchQuality& quality,
+  void measure(const PointGeometry& point, const PointGeometry& foot, const Direction& direction,
                PairObservation& observation) const;
   /// Keeps the vertices of the foot where their times are mixed.
   /// \param point null: control

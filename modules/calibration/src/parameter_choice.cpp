@@ -23,7 +23,7 @@ constexpr double kInseparable = 0.9;  // correlation above which two parameters 
 constexpr double kComponentOfDirection =
     0.3;  // component of a unit vector: the parameter takes part in a weak direction
 
-std::string name(P p) {
+std::string codeName(P p) {
   return std::string(infoOf(p).name);
 }
 
@@ -36,7 +36,7 @@ std::string listed(const std::vector<P>& parameters, P except) {
   std::string text;
   for (const P p : parameters) {
     if (p == except) continue;
-    text += (text.empty() ? "" : ", ") + name(p);
+    text += (text.empty() ? "" : ", ") + codeName(p);
   }
   return text;
 }
@@ -118,12 +118,12 @@ std::string uncertainReason(const AdjustmentSolution& solution, const std::vecto
                            ", more than the limit of " +
                            inUnit(uncertain, factor * limits.of(uncertain));
   if (uncertain != dropped)
-    return "it cannot be separated from " + std::string(name(uncertain)) + " (" +
+    return "it cannot be separated from " + std::string(codeName(uncertain)) + " (" +
            coefficient.str() + "), whose standard deviation " + size;
   if (std::abs(correlation(covariance, dropped, partner)) < 0.5 || partner == dropped)
     return "its standard deviation " + size;
   return "its standard deviation " + size + " (" + coefficient.str() + " with " +
-         std::string(name(partner)) + ")";
+         std::string(codeName(partner)) + ")";
 }
 
 /// Adds to the covariance of the others the effect of a parameter that is held and known with the

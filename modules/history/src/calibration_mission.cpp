@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -14,30 +13,6 @@
 
 namespace pcl_als {
 namespace {
-
-/// A system other than the first one, whose correlations are not stored, as a calibration; none for
-/// the first one.
-std::optional<CalibrationResult> otherSystem(const CalibrationResult& calibration,
-                                             const std::string& name, const std::string& system) {
-  const auto& systems = calibration.systems;
-  const auto found = std::find_if(systems.begin(), systems.end(),
-                                  [&](const SystemEstimate& s) { return s.group.name == system; });
-  if (found == systems.end()) {
-    std::string known;
-    for (const SystemEstimate& s : systems) known += (known.empty() ? "" : ", ") + s.group.name;
-    throw InputError(name + ": has no system '" + system + "'; " +
-                     (known.empty() ? "it has one system without a name" : "it has " + known));
-  }
-  if (found == systems.begin()) return std::nullopt;
-  CalibrationResult other;
-  other.parameters = found->parameters;
-  for (const SystemParameterInfo& info : systemParameters())
-    if (other[info.parameter].status == ParameterStatus::estimated)
-      other.correlation_order.push_back(info.parameter);
-  const auto size = static_cast<Eigen::Index>(other.correlation_order.size());
-  other.correlation = Eigen::MatrixXd::Identity(size, size);
-  return other;
-}
 
 Eigen::MatrixXd scaledBy(const Eigen::VectorXd& scale, const Eigen::MatrixXd& matrix) {
   return scale.asDiagonal() * matrix * scale.asDiagonal();
@@ -128,9 +103,12 @@ void removePrior(const BiasPrior& prior, CalibrationMission& mission) {
 
 CalibrationMission missionOf(const CalibrationResult& calibration, const std::string& name,
                              const std::string& system) {
-  std::optional<CalibrationResult> other;
-  if (!system.empty()) other = otherSystem(calibration, name, system);
-  const CalibrationResult& estimated = other ? *other : calibration;
+  CalibrationResult estimated;
+  try {
+    estimated = calibrationOfSystem(calibration, system);
+  } catch (const UsageError& error) {
+    throw UsageError(name + ": " + error.what());
+  }
   CalibrationMission mission;
   mission.name = name;
   mission.day = calibration.day;

@@ -56,6 +56,23 @@ BiasPrior PriorFile::prior() const {
   return made;
 }
 
+CalibrationResult PriorFile::calibration() const {
+  CalibrationResult changed = earlier;
+  if (!is_history) return changed;
+  const std::vector<SystemParameter>& order = changed.correlation_order;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    double& std = changed[order[i]].std;
+    const double with_change = std::hypot(std, change_std[indexOf(order[i])]);
+    if (!(with_change > 0.0)) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    changed.correlation.row(row) *= std / with_change;
+    changed.correlation.col(row) *= std / with_change;
+    changed.correlation(row, row) = 1.0;
+    std = with_change;
+  }
+  return changed;
+}
+
 PriorFile readPriorFile(const std::filesystem::path& path) {
   PriorFile file;
   file.name = path.string();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <set>
 
 #include <pcl_als/calibration/survey_calibration.h>
 #include <pcl_als/common/errors.h>
@@ -54,6 +57,19 @@ std::string CalibrationCheck::text(const std::string& name) const {
             inUnit(largest.parameter, largest.change_std);
   }
   return holds() ? text : text + "; calibrate the system with these strips";
+}
+
+bool mayBeOfAnotherFlight(const CalibrationResult& calibration,
+                          const std::vector<std::string>& files, const Trajectory& flight) {
+  if (!calibration.strip_errors.empty() || !calibration.recovered_attitude.passes().empty())
+    return isOfAnotherFlight(calibration, flight.startTime(), flight.endTime());
+  const auto nameOf = [](const std::string& path) {
+    return std::filesystem::path(path).filename();
+  };
+  std::set<std::filesystem::path> calibrated;
+  for (const std::string& input : calibration.inputs) calibrated.insert(nameOf(input));
+  return std::none_of(files.begin(), files.end(),
+                      [&](const std::string& file) { return calibrated.count(nameOf(file)) > 0; });
 }
 
 CalibrationCheck checkCalibration(const std::vector<std::string>& files,

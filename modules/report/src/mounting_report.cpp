@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
-#include <pcl_als/common/errors.h>
-#include <pcl_als/common/text_values.h>
 #include <pcl_als/report/mounting_report.h>
 #include <pcl_als/trajectory/calibration_covariance.h>
 
@@ -17,50 +14,6 @@ namespace {
 
 constexpr double kNearGimbalLock = 0.1;    ///< sine: standard deviations are tenfold
 constexpr double kNoticeableShift = 1e-4;  ///< metres, smallest displacement that is reported
-
-/// Biases of one system with their covariance.
-struct SystemBiases {
-  std::vector<ParameterEstimate> parameters;
-  SystemVector biases;
-  SystemMatrix covariance;
-  bool has_correlations = true;
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-};
-
-std::vector<std::string> namesOf(const CalibrationResult& calibration) {
-  std::vector<std::string> names;
-  for (const SystemEstimate& system : calibration.systems) names.push_back(system.group.name);
-  return names;
-}
-
-/// The calibration's correlations are those of its first system.
-SystemBiases biasesOfSystem(const CalibrationResult& calibration, const std::string& name) {
-  const std::vector<std::string> names = namesOf(calibration);
-  if (name.empty() && names.size() > 1)
-    throw UsageError("the calibration has several systems; name the one of this mounting: " +
-                     joined(names));
-  SystemBiases chosen;
-  chosen.parameters.assign(calibration.parameters.begin(), calibration.parameters.end());
-  chosen.covariance = CalibrationCovariance(calibration, {}).parameters();
-  for (std::size_t i = 0; i < names.size() && !name.empty(); ++i) {
-    if (names[i] != name) continue;
-    const SystemEstimate& system = calibration.systems[i];
-    chosen.offset = system.offset;
-    if (i == 0) break;
-    chosen.parameters.assign(system.parameters.begin(), system.parameters.end());
-    chosen.has_correlations = false;
-    for (int p = 0; p < kSystemParameterCount; ++p) {
-      chosen.covariance.row(p).setZero();
-      chosen.covariance(p, p) = std::pow(chosen.parameters[std::size_t(p)].std, 2);
-    }
-  }
-  if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
-    throw UsageError("the calibration has no system '" + name + "'" +
-                     (names.empty() ? "; it has one without a name" : " (" + joined(names) + ")"));
-  for (int p = 0; p < kSystemParameterCount; ++p)
-    chosen.biases[p] = chosen.parameters[std::size_t(p)].bias;
-  return chosen;
-}
 
 /// Whether the calibration says nothing of three parameters.
 bool isUntouched(const MountingReport& report, SystemParameter first) {
@@ -128,16 +81,20 @@ void remarkOnModel(MountingReport& report, const CalibrationResult& calibration)
                              ", which are no part of a mounting");
 }
 
-void remarkOnSystem(MountingReport& report, const SystemBiases& system) {
-  if (!system.has_correlations)
+/// \param first name of the first system
+void remarkOnSystem(MountingReport& report, const CalibrationResult& one,
+                    const std::string& first) {
+  if (report.input.system != first)
     report.remarks.push_back(
         "the calibration states correlations for its first system only: the standard deviations "
         "are those of uncorrelated biases");
-  if (!system.offset.isZero(0.0))
+  const Eigen::Vector3d offset =
+      one.systems.empty() ? Eigen::Vector3d::Zero() : one.systems.front().offset;
+  if (!offset.isZero(0.0))
     report.remarks.push_back(formatted(
         "the coordinates of this system are offset by %.3f, %.3f, %.3f m (east, north, up), which "
         "is no part of a mounting",
-        system.offset.x(), system.offset.y(), system.offset.z()));
+        offset.x(), offset.y(), offset.z()));
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate = report.parameters[std::size_t(indexOf(info.parameter))];
     if (estimate.status == ParameterStatus::estimated && !estimate.determined)
@@ -150,21 +107,23 @@ void remarkOnSystem(MountingReport& report, const SystemBiases& system) {
 
 MountingReport reportMounting(const CalibrationResult& calibration, const std::string& file,
                               const MountingInput& input) {
-  const SystemBiases system = biasesOfSystem(calibration, input.system);
+  const CalibrationResult one = calibrationOfSystem(calibration, input.system);
+  const SystemVector biases = one.biases();
   MountingReport report;
   report.input = input;
   report.calibration = file;
-  report.parameters = system.parameters;
+  report.parameters.assign(one.parameters.begin(), one.parameters.end());
   const Mounting old{input.angles, input.lever_arm.value_or(Eigen::Vector3d::Zero())};
-  report.correction = correctedMounting(input.convention, old, system.biases, system.covariance);
+  report.correction =
+      correctedMounting(input.convention, old, biases, CalibrationCovariance(one, {}).parameters());
   // Assumed - true: ranges were computed with so much too much, angles with a scale too large.
-  report.range_correction = -system.biases[indexOf(SystemParameter::range_bias)];
-  report.scan_angle_factor =
-      1.0 / (1.0 + system.biases[indexOf(SystemParameter::scan_angle_scale)]);
+  report.range_correction = -biases[indexOf(SystemParameter::range_bias)];
+  report.scan_angle_factor = 1.0 / (1.0 + biases[indexOf(SystemParameter::scan_angle_scale)]);
   remarkOnAngles(report);
   remarkOnLeverArm(report);
   remarkOnModel(report, calibration);
-  remarkOnSystem(report, system);
+  remarkOnSystem(report, one,
+                 input.system.empty() ? std::string() : calibration.systems.front().group.name);
   return report;
 }
 

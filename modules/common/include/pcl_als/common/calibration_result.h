@@ -277,6 +277,13 @@ struct CalibrationResult {
 /// The part of a calibration that belongs to the instrument, as a calibration of its own.
 CalibrationResult instrumentOf(const CalibrationResult& calibration);
 
+/// The calibration of one of several systems: its parameters and offset, with the correlations of
+/// the first system and, for another one, without any, because they are not stored. \a name may be
+/// empty where there are no several systems. UsageError: there is no such system, or a name is
+/// needed.
+CalibrationResult calibrationOfSystem(const CalibrationResult& calibration,
+                                      const std::string& name);
+
 /// Whether a flight between two times (seconds, on the trajectory's clock) is not the one that was
 /// calibrated with: no strip with trajectory errors or recovered attitude was measured in it. False
 /// for a calibration without any.

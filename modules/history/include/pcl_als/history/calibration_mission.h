@@ -44,12 +44,11 @@ struct CalibrationMission {
 
 /** \brief The mission of a calibration.
  *
- * \param system name of one of several systems of the calibration; empty: the only or the first
- * one. The correlations of a system other than the first are not stored and are taken as zero.
+ * \param system name of the system, of a calibration with several (calibrationOfSystem(), whose
+ * UsageError is thrown with \a name).
  *
  * InputError, with \a name, where the calibration has no estimated parameter, where a standard
- * deviation is not positive, where the correlation matrix is not positive definite, or where no
- * system has that name.
+ * deviation is not positive, or where the correlation matrix is not positive definite.
  */
 CalibrationMission missionOf(const CalibrationResult& calibration, const std::string& name,
                              const std::string& system = {});

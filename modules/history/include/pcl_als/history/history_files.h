@@ -19,7 +19,7 @@ struct HistoryInput {
   /// Name of the instrument: calibrations of others are excluded. Empty: all must have the same
   /// name, or none.
   std::string system_name;
-  std::string system;  ///< of calibrations with several systems; empty: the first one
+  std::string system;  ///< of calibrations with several systems
   /// Calibrations that their verdict says not to apply are used as well.
   bool with_unusable = false;
 };

@@ -27,6 +27,10 @@ struct PriorFile {
    * or not known.
    */
   BiasPrior prior() const;
+
+  /// The calibration to apply: that of the file; of a history its instrument part, whose standard
+  /// deviations and correlations are those of a new mission, with the changes to it.
+  CalibrationResult calibration() const;
 };
 
 /// Reads such a file, by its "format". InputError for another file, and one that lacks what a prior

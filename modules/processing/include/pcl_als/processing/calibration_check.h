@@ -30,6 +30,12 @@ struct CalibrationCheck {
   std::string text(const std::string& name) const;
 };
 
+/// Whether a calibration may come from another flight than that of some files: none of its strips
+/// was measured during the flight (isOfAnotherFlight()) or, where it does not tell their times, no
+/// file has the name of one of its inputs.
+bool mayBeOfAnotherFlight(const CalibrationResult& calibration,
+                          const std::vector<std::string>& files, const Trajectory& flight);
+
 struct CalibrationCheckOptions {
   std::optional<int> gps_week;
   int threads = 0;
