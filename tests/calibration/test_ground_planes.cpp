@@ -55,6 +55,19 @@ TEST(GroundPlanes, LeaveOutOtherSurfaces) {
   EXPECT_EQ(GroundPlanes(points, 1.0, 0.08).under({0, 1, 40}), nullptr);  // four points
 }
 
+TEST(GroundPlanes, MoveWithTheirPoints) {
+  std::vector<Eigen::Vector3d> points = slopeWithStep(0.02);
+  const GroundPlanes here(points, 5.0, 0.08);
+  for (Eigen::Vector3d& point : points) point += Eigen::Vector3d(-1234.5, 2345.25, 100.0);
+  const GroundPlanes there(points, 5.0, 0.08);
+  for (std::int32_t i = 0; i + 41 < 1600; ++i) {
+    const auto *a = here.under({i, i + 1, i + 40}), *b = there.under({i, i + 1, i + 40});
+    ASSERT_EQ(a == nullptr, b == nullptr);
+    if (a == nullptr) continue;
+    EXPECT_LT((a->normal - b->normal).norm(), 1e-9);
+  }
+}
+
 TEST(GroundPlanes, FollowTheirPoints) {
   std::vector<Eigen::Vector3d> points = slopeWithStep(0.0);
   GroundPlanes planes(points, 5.0, 0.08);

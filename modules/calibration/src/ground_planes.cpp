@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -23,12 +24,14 @@ using Members = std::vector<std::int32_t>;
 
 constexpr std::size_t kFewest = 20;  // points of a cell: the plane has a better tilt than a patch
 
-/// Points by cell.
+/// Points by cell, from the corner of their box, so that the cells move with them.
 std::map<std::pair<std::int64_t, std::int64_t>, Members> cellsOf(const Points& points,
                                                                  double cell) {
   std::map<std::pair<std::int64_t, std::int64_t>, Members> cells;
+  Eigen::Array2d corner = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+  for (const Eigen::Vector3d& point : points) corner = corner.min(point.head<2>().array());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Array2d at = (points[i].head<2>() / cell).array().floor();
+    const Eigen::Array2d at = ((points[i].head<2>().array() - corner) / cell).floor();
     cells[{static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y())}].push_back(
         static_cast<std::int32_t>(i));
   }
