@@ -56,7 +56,8 @@ CommandLine commandLine() {
                    "-calibration calibration.json -convention NAME -angles A,B,C [options]",
                    "pcl_als_mounting -calibration calibration.json -convention novatel -angles "
                    "0.12,-0.05,90.2 -lever_arm 0.02,0.11,-0.08");
-  line.addInputFile("calibration", "calibration.json or history.json of points that were computed with -angles");
+  line.addInputFile("calibration",
+                    "calibration.json or history.json of points that were computed with -angles");
   addConventionOptions(line);
   line.addText("angles", "the old angles A,B,C, in the order of the convention");
   line.addText("lever_arm",
