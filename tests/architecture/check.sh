@@ -49,9 +49,12 @@ closure() {  # X and all that it declares, directly or through others
   reach[$1]=$all
 }
 
-includes() {  # FILE: line number and target of each include
-  sed -nE 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*([<"][^>"]*[>"]).*/\1/p' "$1"
-}
+# sources FOLDER…: the C++ files in these folders.
+sources() { find "$@" \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \); }
+
+# One process reads many files: starting one for each file would take minutes.
+# each AWK_PROGRAM: applies the program to the files that are named on standard input.
+each() { sort | tr '\n' '\0' | xargs -0 -r awk "$1"; }
 
 for folder in modules/*/; do
   module=$(basename -- "$folder")
@@ -64,48 +67,51 @@ for folder in modules/*/; do
     [[ $module != visualization ]] &&
     breach "modules/$module/CMakeLists.txt" "links a module, a tool or VTK without MODULES"
   closure "$module"
-  while IFS= read -r file; do
-    while IFS= read -r target; do
-      case $target in
-        "<pcl_als/"*)
-          used=${target#<pcl_als/}
-          [[ ${reach[$module]} == *" ${used%%/*} "* ]] ||
-            breach "$file" "includes $target, but $module does not declare module ${used%%/*}"
-          [[ $used != simulation/* || $module == simulation || $file == */simulated_@(survey|images).* ]] ||
-            breach "$file" "includes $target: only the writers of simulated surveys use module simulation"
-          [[ $module != calibration || $used != las/* ]] ||
-            breach "$file" "includes $target: module $module reads points through module survey" ;;
-        *'../'*) breach "$file" "includes $target across folders" ;;
-        \"*)
-          [[ -e $(dirname -- "$file")/${target//\"/} ]] ||
-            breach "$file" "includes $target, which is not beside it" ;;
-        "<vtk"* | "<pcl/visualization/"*)
-          [[ $module == visualization ]] || breach "$file" "includes $target: only visualization uses VTK" ;;
-        "<boost/mpi"* | "<mpi.h>")
-          [[ $module == mpi ]] || breach "$file" "includes $target: only module mpi uses MPI" ;;
-        "<gtest/"*) breach "$file" "includes $target in a library" ;;
-      esac
-    done < <(includes "$file")
-    # Only the display of progress is meant to print.
-    if [[ $file != *.md && $file != */console_progress.cpp ]] && grep -nE '(std::(cout|cerr|clog)|[^sn:_a-zA-Z](f|std::)?printf *\(|PCL_(ERROR|WARN|INFO)) *' "$file" |
-         grep -vE '^[0-9]+: *(//|\*|/\*)' >/dev/null; then
-      breach "$file" "prints: a library reports through results and exceptions"
-    fi
-  done < <(find "$folder" -name '*.h' -o -name '*.hpp' -o -name '*.cpp' | sort)
+  while IFS=$'\t' read -r file target; do
+    case $target in
+      "<pcl_als/"*)
+        used=${target#<pcl_als/}
+        [[ ${reach[$module]} == *" ${used%%/*} "* ]] ||
+          breach "$file" "includes $target, but $module does not declare module ${used%%/*}"
+        [[ $used != simulation/* || $module == simulation || $file == */simulated_@(survey|images).* ]] ||
+          breach "$file" "includes $target: only the writers of simulated surveys use module simulation"
+        [[ $module != calibration || $used != las/* ]] ||
+          breach "$file" "includes $target: module $module reads points through module survey" ;;
+      *'../'*) breach "$file" "includes $target across folders" ;;
+      \"*)
+        [[ -e ${file%/*}/${target//\"/} ]] ||
+          breach "$file" "includes $target, which is not beside it" ;;
+      "<vtk"* | "<pcl/visualization/"*)
+        [[ $module == visualization ]] || breach "$file" "includes $target: only visualization uses VTK" ;;
+      "<boost/mpi"* | "<mpi.h>")
+        [[ $module == mpi ]] || breach "$file" "includes $target: only module mpi uses MPI" ;;
+      "<gtest/"*) breach "$file" "includes $target in a library" ;;
+    esac
+  done < <(sources "$folder" | each '
+    match($0, /^[ \t]*#[ \t]*include[ \t]*(<[^>]*>|"[^"]*")/) {
+      target = substr($0, RSTART, RLENGTH)
+      sub(/^[^<"]*/, "", target)
+      print FILENAME "\t" target }')
   [[ -e modules/$module/README.md ]] || breach "modules/$module" "has no README.md"
 done
+
+# Only the display of progress is meant to print.
+while IFS= read -r place; do
+  breach "$place" "prints: a library reports through results and exceptions"
+done < <(sources modules | grep -v '/console_progress.cpp$' | each '
+  /^[ \t]*(\/\/|\*|\/\*)/ { next }
+  /std::(cout|cerr|clog)|[^sn:_a-zA-Z](f|std::)?printf *\(|PCL_(ERROR|WARN|INFO)/ { print FILENAME ":" FNR }')
 
 # Messages of a library do not name options of the tools: a tool adds the name of its own (Remedy).
 while IFS= read -r place; do
   breach "$place" "names an option of a tool in a library"
-done < <(find modules \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \) \
-  -exec awk '
+done < <(sources modules | each '
     /^[[:space:]]*(\/\/|\*|\/\*)/ { next }
     { gsub(/\047\\?"\047/, "")  # the character, which begins no text
       for (rest = $0; match(rest, /"([^"\\]|\\.)*"/); rest = substr(rest, RSTART + RLENGTH)) {
         if (substr(rest, 1, RSTART - 1) ~ /\/\//) break
         text = substr(rest, RSTART, RLENGTH)
-        if (text ~ /["(,;: \047`]--?[a-z][a-z_]+/) print FILENAME ":" FNR ": " text } }' {} +)
+        if (text ~ /["(,;: \047`]--?[a-z][a-z_]+/) print FILENAME ":" FNR ": " text } }')
 
 # A user of the calibration needs settings, result and one class; internal headers are in src/.
 installed=(modules/calibration/include/pcl_als/calibration/*.h)
@@ -113,18 +119,22 @@ installed=(modules/calibration/include/pcl_als/calibration/*.h)
   breach modules/calibration "installs ${#installed[@]} headers, more than 4"
 
 # Every source file has a licence and at most 400 lines.
-while IFS= read -r file; do
-  head -n 6 -- "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' ||
-    breach "$file" "has no SPDX line"
-  lines=$(wc -l <"$file")
-  ((lines <= 400)) || breach "$file" "has $lines lines, more than 400"
-done < <(find modules apps tests share \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' -o -name '*.sh' \) | sort)
+while IFS=$'\t' read -r file text; do
+  breach "$file" "$text"
+done < <({ sources modules apps tests share; find modules apps tests share -name '*.sh'; } | each '
+  function ended() {
+    if (!licensed) print file "\thas no SPDX line"
+    if (lines > 400) print file "\thas " lines " lines, more than 400"
+  }
+  FNR == 1 { if (file) ended(); file = FILENAME; licensed = 0 }
+  FNR <= 6 && /SPDX-License-Identifier: BSD-3-Clause/ { licensed = 1 }
+  { lines = FNR }
+  END { if (file) ended() }')
 
 # Functions are short enough to be read at once.
 while IFS=$'\t' read -r lines file line signature; do
   ((lines <= 57)) || breach "$file:$line" "a function of $lines lines, more than 57: $signature"
-done < <(find modules apps \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \) -exec \
-  awk -f "$here/function_lengths.awk" {} +)
+done < <(sources modules apps | each "$(<"$here/function_lengths.awk")")
 
 # Every table of the glossary has the same columns.
 if [[ -e share/GLOSSARY.md ]] && grep -B1 -E '^\|[-|]+\|$' share/GLOSSARY.md | grep -vE '^(--|\|-)' |
@@ -146,12 +156,13 @@ done < <(find . -name '*.md' -not -path './.git/*' -not -path './build*' \
   awk '{ gsub(/[\200-\277]/, "") } length($0) > 99 && !/^\|/ { print FILENAME ":" FNR }' {} +)
 
 # A file that no CMakeLists.txt lists is not built.
+declare -A lists
 while IFS= read -r file; do
-  list=$(dirname -- "$file")
-  until [[ -e $list/CMakeLists.txt ]]; do list=$(dirname -- "$list"); done
-  stem=$(basename -- "$file" .cpp)
-  grep -qF -- "${stem#test_}" "$list/CMakeLists.txt" ||
-    breach "$file" "is not listed in $list/CMakeLists.txt"
+  list=${file%/*}
+  until [[ -e $list/CMakeLists.txt ]]; do list=${list%/*}; done
+  [[ -v "lists[$list]" ]] || lists[$list]=$(<"$list/CMakeLists.txt")
+  stem=${file##*/} stem=${stem%.cpp}
+  [[ ${lists[$list]} == *"${stem#test_}"* ]] || breach "$file" "is not listed in $list/CMakeLists.txt"
 done < <(find modules apps tests share/examples -name '*.cpp' | sort)
 
 ((breaches == 0)) || { echo "$breaches breaches of the architecture"; exit 1; }
