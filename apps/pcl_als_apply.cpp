@@ -162,7 +162,7 @@ int apply(const CommandLine& line) {
   app::remarks(line, reference.remarks);
   FlightFile stated;
   const auto flight = app::readFlight(line, reference.crs, calibration.line_fit_half_width,
-                                      attitudeUse(line, calibration), {}, &stated);
+                                      attitudeUse(line, calibration), files, &stated);
   options.trajectory_accuracy =
       line.has("accuracy") ? app::accuracies(line) : std::move(stated.accuracy);
   if (line.has("biases")) calibration.attitude = attitudeOf(*flight);

@@ -5,30 +5,16 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <pcl_als/common/errors.h>
-
-#include "option.h"
+#include <pcl_als/common/input_file.h>
+#include <pcl_als/common/point_files.h>
 
 namespace pcl_als::app {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string contentOf(const std::string& file) {
-  constexpr std::uintmax_t kLargest = 16U << 20U;  // bytes: no command is as long
-  std::error_code failed;
-  if (!fs::is_regular_file(file, failed)) throw InputError(file + ": there is no such file");
-  if (fs::file_size(file, failed) > kLargest || failed)
-    throw InputError(file + ": is no file of options");
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in) throw InputError(file + ": cannot be read");
-  if (text.find('\0') != std::string::npos) throw InputError(file + ": is no file of options");
-  return text;
-}
+/// No command is as long as 16 MiB.
+constexpr ContentLimits kCommandLimits{std::uint64_t{16} << 20U, 0, true};
 
 bool isBlank(char c) {
   return std::isspace(static_cast<unsigned char>(c)) != 0;
@@ -72,7 +58,8 @@ std::vector<std::string> withArgumentFiles(const std::vector<std::string>& words
       continue;
     }
     const std::string file = word.substr(1);
-    for (std::string& more : wordsOf(contentOf(file), file)) all.push_back(std::move(more));
+    for (std::string& more : wordsOf(readWholeFile(file, kCommandLimits), file))
+      all.push_back(std::move(more));
   }
   return all;
 }
@@ -80,15 +67,9 @@ std::vector<std::string> withArgumentFiles(const std::vector<std::string>& words
 std::vector<std::string> withFilesOfFolders(const std::vector<std::string>& arguments) {
   std::vector<std::string> all;
   for (const std::string& argument : arguments) {
-    std::error_code failed;
+    std::error_code unknown;
     std::vector<std::string> files;
-    if (fs::is_directory(argument, failed)) {
-      for (fs::directory_iterator entry(argument, failed), end; !failed && entry != end;
-           entry.increment(failed))
-        if (isPointFile(entry->path())) files.push_back(entry->path().string());
-      if (failed) throw InputError(argument + ": cannot be read: " + failed.message());
-    }
-    std::sort(files.begin(), files.end());
+    if (std::filesystem::is_directory(argument, unknown)) files = pointFilesIn(argument);
     if (files.empty()) files.push_back(argument);
     all.insert(all.end(), files.begin(), files.end());
   }

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <iostream>
 #include <limits>
-#include <set>
 #include <stdexcept>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/common/nearest_name.h>
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/common/point_files.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/common/thread_limit.h>
 
@@ -55,11 +54,6 @@ void checkValue(const Option& option, const std::string& value) {
 }
 
 }  // namespace
-
-bool isPointFile(const std::filesystem::path& file) {
-  static const std::set<std::string> kPoints = {".las", ".laz", ".pcd"};
-  return kPoints.count(lowerExtension(file)) != 0;
-}
 
 FolderFiles always(std::vector<std::string> names) {
   return [names = std::move(names)](const CommandLine&) { return std::optional(names); };
@@ -255,15 +249,11 @@ void CommandLine::refuseUnknown(const std::string& option) const {
 void CommandLine::takeArguments() {
   const Arguments& wanted = form();
   const std::size_t out = wanted.out.empty() ? 0 : 1;
-  if (wanted.most == Arguments::kAnyNumber && arguments_.size() >= out) {
-    const auto inputs_end = arguments_.end() - static_cast<std::ptrdiff_t>(out);
-    std::vector<std::string> all = withFilesOfFolders({arguments_.begin(), inputs_end});
-    all.insert(all.end(), inputs_end, arguments_.end());
-    arguments_ = std::move(all);
-  }
-  if (arguments_.size() < wanted.least + out || arguments_.size() > wanted.most + out)
+  if (arguments_.size() >= out)
+    inputs_.assign(arguments_.begin(), arguments_.end() - static_cast<std::ptrdiff_t>(out));
+  if (wanted.isList()) inputs_ = withFilesOfFolders(inputs_);
+  if (arguments_.size() < out || inputs_.size() < wanted.least || inputs_.size() > wanted.most)
     throw UsageError("usage: " + tool_ + ' ' + synopsis_ + " (see " + tool_ + " -h)");
-  inputs_.assign(arguments_.begin(), arguments_.end() - static_cast<std::ptrdiff_t>(out));
   if (out > 0) output_ = arguments_.back();
   // Of a list; where each input has a part of its own, the tool says what may be the same.
   if (wanted.most > 2) refuseRepeated(inputs_);
@@ -367,9 +357,8 @@ std::string CommandLine::toolAndVersion() const {
 }
 
 std::string CommandLine::help() const {
-  const bool takes_folders = std::any_of(forms_.begin(), forms_.end(), [](const Arguments& form) {
-    return form.most == Arguments::kAnyNumber;
-  });
+  const bool takes_folders = std::any_of(forms_.begin(), forms_.end(),
+                                         [](const Arguments& form) { return form.isList(); });
   return tool_ + ": " + purpose_ + "\n\nUsage: " + tool_ + ' ' + synopsis_ +
          "\n\n@FILE stands for the words in FILE" +
          (takes_folders ? ", a folder for the point files in it." : ".") +

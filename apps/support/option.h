@@ -29,8 +29,6 @@ using InputFiles = std::function<std::vector<std::filesystem::path>(const Comman
  * any characters. Nothing where the output is a file in spite of that.
  */
 using FolderFiles = std::function<std::optional<std::vector<std::string>>(const CommandLine&)>;
-/// Whether a file is a point file by its name (.las, .laz, .pcd).
-bool isPointFile(const std::filesystem::path& file);
 /// Names that are the same whatever the other options.
 FolderFiles always(std::vector<std::string> names);
 /// The names of the point files that are positional arguments.
@@ -75,6 +73,9 @@ struct Arguments {
   std::size_t least = 0, most = 0;    ///< number of input files
   std::vector<std::string> out = {};  ///< extensions of the output that follows; empty: none
   FolderFiles files = {};             ///< where that output may be a folder
+
+  /// A folder may stand for the point files in it.
+  bool isList() const { return most == kAnyNumber; }
 };
 
 }  // namespace pcl_als::app

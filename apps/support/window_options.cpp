@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/point_files.h>
 
 namespace pcl_als::app {
 
@@ -34,14 +35,9 @@ std::vector<std::filesystem::path> pointFiles(const CommandLine& line, const std
   if (!line.has(option)) return {};
   const std::string value = line.text(option);
   std::error_code error;
-  std::vector<std::filesystem::path> files;
-  if (std::filesystem::is_directory(value, error)) {
-    for (const auto& entry : std::filesystem::directory_iterator(value, error))
-      if (isPointFile(entry.path())) files.push_back(entry.path());
-  } else {
-    for (const std::string& file : splitList(value)) files.emplace_back(file);
-  }
-  return files;
+  const std::vector<std::string> files =
+      std::filesystem::is_directory(value, error) ? pointFilesIn(value) : splitList(value);
+  return {files.begin(), files.end()};
 }
 
 void addWindowOptions(CommandLine& line) {

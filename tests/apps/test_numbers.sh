@@ -19,14 +19,17 @@ refused() {
     failed "pcl_als_$verb -$option '$value': status $status"
 }
 
+# Texts that are no number are refused by one function for all options: every option meets three of
+# them, in turn, and every number that is outside its own range.
+no_numbers=(inf -inf 1e309 0x10 5abc '' '1 2' 1,5)
+turn=0
 # numbers "OPTION…" VERB ARG…: options of one number each.
 numbers() {
   local option value
   for option in $1; do
-    for value in nan inf -inf 1e309 0x10 5abc 1e30 '' '1 2' 1,5; do
-      refused "$option" "$value" "${@:2}"
-    done
+    for value in nan 1e30; do refused "$option" "$value" "${@:2}"; done
     [[ " $signed " == *" $option "* ]] || refused "$option" -1 "${@:2}"
+    for value in 1 2 3; do refused "$option" "${no_numbers[turn++ % ${#no_numbers[@]}]}" "${@:2}"; done
   done
 }
 

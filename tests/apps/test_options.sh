@@ -73,11 +73,11 @@ expect 0 "2 files" info 'a folder'
 expect 0 "3 strips" info 'a folder' 'a folder/nested' -cell 20
 expect 2 "none: " info none
 expect 1 "given twice" info 'a folder' 'a folder/strip1.las'
-expect 2 "none.txt: there is no such file" info @none.txt
+expect 2 "none.txt: cannot be opened: there is no such file" info @none.txt
 printf '"open' >open.txt
 expect 1 "open.txt: a quote is not closed" info @open.txt
 printf 'a\0b' >zero.txt
-expect 2 "zero.txt: is no file of options" info @zero.txt
+expect 2 "zero.txt: is no text, because it has a zero byte" info @zero.txt
 
 # Completion in the shell.
 completion=$bin/../completions

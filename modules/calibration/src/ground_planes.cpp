@@ -60,17 +60,16 @@ Members onPlane(const Points& points, const Members& members, double roughness) 
     const Eigen::Vector3d change = solution - plane;
     plane = solution;
     residuals = heights - rows * plane;
-    return std::optional<double>(std::sqrt(change.dot(normal * change)) / roughness);
+    return std::optional<double>(change.dot(normal * change));
   };
-  constexpr double kEnough = 0.01;  // change of the plane over its standard deviation
+  constexpr double kLeastScale = 0.01;  // of the roughness: points without noise
   RobustSettings settings;
-  settings.least_scale = kEnough * roughness;
+  settings.least_scale = kLeastScale * roughness;
   const RobustFit fit = fitRobustly(members.size(), settings, solve);
   Members found;
   if (!fit.solved() || fit.scale > roughness) return found;
-  const double scale = std::max(fit.scale, settings.least_scale);
   for (Eigen::Index i = 0; i < count; ++i)
-    if (!RobustWeight().rejects(fit.residuals[i], scale))
+    if (!RobustWeight().rejects(fit.residuals[i], fit.scale))
       found.push_back(members[static_cast<std::size_t>(i)]);
   return found.size() < kFewest ? Members() : found;
 }

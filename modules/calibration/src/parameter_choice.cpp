@@ -118,12 +118,12 @@ std::string uncertainReason(const AdjustmentSolution& solution, const std::vecto
                            ", more than the limit of " +
                            inUnit(uncertain, factor * limits.of(uncertain));
   if (uncertain != dropped)
-    return "it cannot be separated from " + std::string(codeName(uncertain)) + " (" +
-           coefficient.str() + "), whose standard deviation " + size;
+    return "it cannot be separated from " + codeName(uncertain) + " (" + coefficient.str() +
+           "), whose standard deviation " + size;
   if (std::abs(correlation(covariance, dropped, partner)) < 0.5 || partner == dropped)
     return "its standard deviation " + size;
   return "its standard deviation " + size + " (" + coefficient.str() + " with " +
-         std::string(codeName(partner)) + ")";
+         codeName(partner) + ")";
 }
 
 /// Adds to the covariance of the others the effect of a parameter that is held and known with the

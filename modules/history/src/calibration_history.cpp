@@ -143,7 +143,9 @@ MissionAgreement agreementOf(std::size_t m, const CalibrationMission& mission,
   const Eigen::VectorXd error = (bias - model.at(m))(compared);
   const Eigen::MatrixXd variance = (covariance + prediction)(compared, compared);
   const Eigen::VectorXd normalised = error.cwiseQuotient(variance.diagonal().cwiseSqrt());
-  agreement.chi_squared = error.dot(inverseOfDefinite(variance) * error);
+  const Eigen::MatrixXd weight = inverseOfDefinite(variance);
+  if (weight.size() == 0) return agreement;
+  agreement.chi_squared = error.dot(weight * error);
   agreement.freedom = static_cast<double>(compared.size());
   agreement.p_value = chiSquaredTail(agreement.chi_squared, agreement.freedom);
   Eigen::Index largest = 0;

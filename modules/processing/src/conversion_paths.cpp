@@ -11,6 +11,7 @@
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/file_protection.h>
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/common/point_files.h>
 #include <pcl_als/processing/point_conversion.h>
 
 namespace pcl_als::detail {
@@ -18,16 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isPointFormat(const std::string& extension) {
-  return extension == ".las" || extension == ".laz" || extension == ".pcd";
-}
-
 /// Whether a name is that of a file of points, also in a format that is not written.
 bool isPointFileName(const fs::path& path) {
   static const std::set<std::string> kOthers = {".asc", ".csv", ".e57", ".ply", ".pts",
                                                 ".ptx", ".txt", ".xyz", ".zlas"};
-  const std::string extension = lowerExtension(path);
-  return isPointFormat(extension) || kOthers.count(extension) != 0;
+  return isPointFile(path) || kOthers.count(lowerExtension(path)) != 0;
 }
 
 bool isCopcName(const fs::path& path) {
@@ -42,7 +38,7 @@ std::string stemOf(const fs::path& path) {
 /// ".las", ".laz" or ".pcd" of a file in a folder.
 std::string extensionFor(const fs::path& input, const std::string& format) {
   const std::string extension = format.empty() ? lowerExtension(input) : "." + format;
-  if (isPointFormat(extension)) return extension;
+  if (isPointExtension(extension)) return extension;
   if (format.empty())
     throw InputError(input.string() + ": is no point file by its name (.las, .laz or .pcd)");
   throw UsageError("point format '" + format + "' is none of las, laz, pcd");
@@ -94,7 +90,7 @@ std::vector<fs::path> outputPaths(const std::vector<fs::path>& inputs, const fs:
     return outputs;
   }
   const std::string extension = lowerExtension(output);
-  if (!isPointFormat(extension))
+  if (!isPointExtension(extension))
     throw UsageError(output.string() + ": is no point file by its name (.las, .laz or .pcd)");
   if (inputs.size() != 1)
     throw UsageError(output.string() + ": is one file; several inputs need a folder");

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/file_version.h>
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/common/point_files.h>
 #include <pcl_als/processing/separation_image.h>
 #include <pcl_als/processing/survey_check.h>
 #include <pcl_als/quality/accuracy_standards.h>
@@ -116,13 +116,7 @@ std::vector<std::string> filesLike(const std::vector<std::string>& others,
   namespace fs = std::filesystem;
   std::vector<std::string> files = given;
   if (given.size() == 1 && fs::is_directory(given.front())) {
-    files.clear();
-    for (const auto& entry : fs::directory_iterator(given.front())) {
-      const std::string extension = lowerExtension(entry.path());
-      const bool points = extension == ".las" || extension == ".laz" || extension == ".pcd";
-      if (entry.is_regular_file() && points) files.push_back(entry.path().string());
-    }
-    std::sort(files.begin(), files.end());
+    files = pointFilesIn(given.front());
     if (files.empty()) throw InputError(given.front() + " holds no point files");
   }
   if (files.empty()) throw InputError("no point files to compare with");
