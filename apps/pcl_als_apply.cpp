@@ -89,7 +89,8 @@ CalibrationResult biasesOf(const CommandLine& line) {
 
 /// A calibration's biases belong to its model; biases by themselves take the best there is.
 AttitudeUse attitudeUse(const CommandLine& line, const CalibrationResult& calibration) {
-  return line.has("biases") ? app::attitudeUse(line) : flightFileOptions(calibration).attitude;
+  return line.has("biases") ? app::attitudeUse(line)
+                            : trajectoryLoadingOptions(calibration).attitude;
 }
 
 FileCorrectionOptions optionsOf(const CommandLine& line, const CalibrationResult& calibration) {
@@ -160,9 +161,9 @@ int apply(const CommandLine& line) {
   FileCorrectionOptions options = optionsOf(line, calibration);
   const PointReference reference = commonReference(files);
   app::remarks(line, reference.remarks);
-  FlightFile stated;
-  const auto flight = app::readFlight(line, reference.crs, calibration.line_fit_half_width,
-                                      attitudeUse(line, calibration), files, &stated);
+  LoadedTrajectory stated;
+  const auto flight = app::loadTrajectory(line, reference.crs, calibration.line_fit_half_width,
+                                          attitudeUse(line, calibration), files, &stated);
   options.trajectory_accuracy =
       line.has("accuracy") ? app::accuracies(line) : std::move(stated.accuracy);
   if (line.has("biases")) calibration.attitude = attitudeOf(*flight);

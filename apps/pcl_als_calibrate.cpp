@@ -16,9 +16,9 @@
 #include "adjustment_options.h"
 #include "command_line.h"
 #include "flight_options.h"
+#include "hint_options.h"
 #include "prior_options.h"
 #include "processes.h"
-#include "remedy_options.h"
 #include "report_options.h"
 #include "strip_options.h"
 #include "window_options.h"
@@ -218,8 +218,9 @@ int calibrate(const CommandLine& line) {
   SurveyReader survey(files, line.threads(), window, app::processes());
   step.done(grouped(survey.pointCount()) + " points");
   app::remarks(line, survey.reference().remarks);
-  FlightFile whole;
-  const auto flight = app::readFlight(line, survey.reference().crs, 0.0, attitude, files, &whole);
+  LoadedTrajectory whole;
+  const auto flight =
+      app::loadTrajectory(line, survey.reference().crs, 0.0, attitude, files, &whole);
   options.reconstructed = whole.reconstructed();
   if (options.reconstructed)
     options.path_accuracy = whole.accuracy;

@@ -10,15 +10,15 @@
 #include <pcl_als/common/memory.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/processing/check_delivery.h>
 #include <pcl_als/processing/delivery_requirement.h>
-#include <pcl_als/processing/survey_check.h>
 #include <pcl_als/report/quality_page.h>
 #include <pcl_als/report/quality_report.h>
 
 #include "command_line.h"
 #include "flight_options.h"
+#include "hint_options.h"
 #include "processes.h"
-#include "remedy_options.h"
 #include "report_options.h"
 #include "strip_options.h"
 #include "window_options.h"
@@ -121,8 +121,8 @@ std::optional<SeparationImageOptions> separationOf(const CommandLine& line,
 }
 
 /// Checks one set of files; \a image: name of its swath separation image.
-SurveyCheck checkFiles(const CommandLine& line, const std::vector<std::string>& files,
-                       SurveyCheckOptions options, const std::string& image) {
+DeliveryCheckResult checkFiles(const CommandLine& line, const std::vector<std::string>& files,
+                               DeliveryCheckOptions options, const std::string& image) {
   Step reading("Reading " + counted(files.size(), "point file"), line.quiet());
   SurveyReader survey(files, line.threads(), app::windowOf(line), app::processes());
   reading.done(grouped(survey.pointCount()) + " points");
@@ -130,10 +130,10 @@ SurveyCheck checkFiles(const CommandLine& line, const std::vector<std::string>& 
   std::shared_ptr<const Trajectory> trajectory;
   if (line.has("trajectory")) {
     trajectory =
-        app::readFlight(line, survey.reference().crs, 0.0, AttitudeUse::where_given, files);
+        app::loadTrajectory(line, survey.reference().crs, 0.0, AttitudeUse::where_given, files);
   }
   options.separation = separationOf(line, image);
-  SurveyCheck checked = checkSurvey(survey, trajectory, options, app::progressOf(line));
+  DeliveryCheckResult checked = checkDelivery(survey, trajectory, options, app::progressOf(line));
   app::nameOptions(line, checked.block.warnings);
   return checked;
 }
@@ -149,7 +149,7 @@ void writeReport(const CommandLine& line, const QualityReport& report,
 
 int check(const CommandLine& line) {
   const std::vector<std::string>& files = line.inputs();
-  SurveyCheckOptions options;
+  DeliveryCheckOptions options;
   options.settings = settingsOf(line);
   options.strips = app::stripChoice(line);
   app::checkFlightOptions(line);
@@ -163,7 +163,7 @@ int check(const CommandLine& line) {
   }
   QualityPage page(line.has("report"));
   options.observer = page.observer();
-  SurveyCheck checked = checkFiles(line, files, options, "swath_separation");
+  DeliveryCheckResult checked = checkFiles(line, files, options, "swath_separation");
   report.block = std::move(checked.block);
   if (!before.empty()) {
     options.areas = checked.areas;

@@ -93,7 +93,7 @@ void assess(const CommandLine& line, const LandCoverResult& result, const Raster
                         {},
                         {},
                         result.checks.remarks,
-                        files.left_out};
+                        files.excluded};
   report.inputs = {line.text("checkpoints"), line.text("output")};
   if (!line.quiet()) std::cout << '\n' << accuracyText(report) << std::flush;
   if (line.has("accuracy")) writeAccuracy(line.text("accuracy"), report);
@@ -117,7 +117,7 @@ int classify(const CommandLine& line) {
   const LandCoverResult result = classifyLandCover(files, optionsOf(line, files), progressOf(line));
   if (!isRoot(processes())) return kDone;
   std::vector<std::string> notes = files.remarks;
-  for (const std::string& part : describe(files.left_out)) notes.push_back(part);
+  for (const std::string& part : describe(files.excluded)) notes.push_back(part);
   notes.insert(notes.end(), result.remarks.begin(), result.remarks.end());
   if (line.has("save_model")) writeClassModel(line.text("save_model"), *result.model, notes);
   if (!result.checks.sites.empty()) assess(line, result, files);

@@ -92,7 +92,7 @@ int convert(const CommandLine& line) {
     for (const PointConversionResult::Output& output : result.outputs)
       app::remark(line, output.path.string() + ": " + grouped(output.points) + " points");
   }
-  app::remarks(line, describe(result.left_out));
+  app::remarks(line, describe(result.excluded));
   app::remarks(line, result.remarks);
   return app::kDone;
 }

@@ -75,11 +75,11 @@ int icpatch(const CommandLine& line) {
   const PatchAlignmentSettings settings = settingsOf(line);
   const std::filesystem::path source = pair.source.files().front().path;
   if (line.has("transformed")) checkMovable(source, line.text("transformed"));
-  const PairAlignment alignment = alignPair(pair, settings, app::progressOf(line));
+  const PairAlignment alignment = registerPair(pair, settings, app::progressOf(line));
   const PatchAlignmentResult& result = alignment.result;
   writeAlignment(line.text("output"), result,
                  {pair.source.name, pair.target.name, alignment.source_points,
-                  alignment.target_points, pair.left_out});
+                  alignment.target_points, pair.excluded});
   if (!line.quiet()) std::cout << '\n' << alignmentTable(result) << std::endl;
   if (result.hasConverged() && line.has("transformed")) {
     Step writing("Writing " + line.text("transformed"), line.quiet());

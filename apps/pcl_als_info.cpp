@@ -4,23 +4,23 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/number_text.h>
-#include <pcl_als/io/survey_census.h>
+#include <pcl_als/io/dataset_inventory.h>
 #include <pcl_als/processing/flight_assessment.h>
-#include <pcl_als/processing/flight_file.h>
-#include <pcl_als/processing/strip_census.h>
-#include <pcl_als/report/census_report.h>
+#include <pcl_als/processing/strip_inventory.h>
+#include <pcl_als/processing/trajectory_loading.h>
+#include <pcl_als/report/inventory_report.h>
 
 #include "command_line.h"
 #include "flight_options.h"
-#include "remedy_options.h"
+#include "hint_options.h"
 #include "strip_options.h"
 #include "window_options.h"
 
 namespace pcl_als::app {
 namespace {
 
-ListedFlight flightOf(const CommandLine& line) {
-  ListedFlight flight;
+ListedTrajectory flightOf(const CommandLine& line) {
+  ListedTrajectory flight;
   if (line.has("accuracy")) flight.accuracy_path = line.text("accuracy");
   flight.accuracy = accuracies(line);
   if (!line.has("trajectory")) return flight;
@@ -46,9 +46,10 @@ CommandLine commandLine() {
   return line;
 }
 
-CensusRequest requestOf(const CommandLine& line, const std::vector<std::string>& inputs,
-                        const PointWindow& window, double cell) {
-  CensusRequest request{{inputs.begin(), inputs.end()}, cell, stripChoice(line), window, {}, {}, 0};
+InventoryRequest requestOf(const CommandLine& line, const std::vector<std::string>& inputs,
+                           const PointWindow& window, double cell) {
+  InventoryRequest request{
+      {inputs.begin(), inputs.end()}, cell, stripChoice(line), window, {}, {}, 0};
   request.strips.keep_timeless = true;  // nothing here needs times
   request.threads = line.threads();
   if (!line.has("trajectory") || !request.strips.split) return request;
@@ -57,9 +58,9 @@ CensusRequest requestOf(const CommandLine& line, const std::vector<std::string>&
   return request;
 }
 
-void nameOptions(const CommandLine& line, SurveyCensus& survey) {
-  for (FileCensus& file : survey.files) app::nameOptions(line, file.remarks);
-  for (StripCensus& strip : survey.strips) app::nameOptions(line, strip.remarks);
+void nameOptions(const CommandLine& line, DatasetInventory& survey) {
+  for (FileInventory& file : survey.files) app::nameOptions(line, file.remarks);
+  for (StripInventory& strip : survey.strips) app::nameOptions(line, strip.remarks);
   app::nameOptions(line, survey.remarks);
 }
 
@@ -67,26 +68,26 @@ int info(const CommandLine& line) {
   const PointWindow window = windowOf(line);
   const double cell = line.number("cell");
   const auto& inputs = line.inputs();
-  ListedFlight flight = flightOf(line);
+  ListedTrajectory flight = flightOf(line);
   if (!line.quiet()) std::cout << flightText(flight);
   if (inputs.empty()) {
-    if (line.has("json")) writeFile(line.text("json"), censusJson({}, {}, flight));
+    if (line.has("json")) writeFile(line.text("json"), inventoryJson({}, {}, flight));
     return kDone;
   }
   Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
   const auto progress = [&](double fraction) { step.progress(fraction); };
-  StripCensusResult listed;
+  StripInventoryResult listed;
   if (choosesStrips(line))
-    listed = takeCensus(requestOf(line, inputs, window, cell), progress);
+    listed = takeInventory(requestOf(line, inputs, window, cell), progress);
   else
-    listed.census = takeCensus({inputs.begin(), inputs.end()}, cell, progress, {}, window);
-  SurveyCensus& survey = listed.census;
+    listed.inventory = takeInventory({inputs.begin(), inputs.end()}, cell, progress, {}, window);
+  DatasetInventory& survey = listed.inventory;
   std::uint64_t points = 0;
-  for (const FileCensus& file : survey.files) points += file.statistics.points;
+  for (const FileInventory& file : survey.files) points += file.statistics.points;
   step.done(grouped(points) + " points");
   remarks(line, listed.notes);
   nameOptions(line, survey);
-  if (!line.quiet()) std::cout << '\n' << censusText(survey, listed.left_out);
+  if (!line.quiet()) std::cout << '\n' << inventoryText(survey, listed.excluded);
   if (line.has("trajectory")) {
     flight.assessment = assessFlight(inputs, window, stripChoice(line), trajectoryFiles(line),
                                      trajectoryReading(line, {}), line.threads());
@@ -94,7 +95,8 @@ int info(const CommandLine& line) {
     app::nameOptions(line, flight.assessment.warnings);
     if (!line.quiet()) std::cout << assessmentText(flight.assessment);
   }
-  if (line.has("json")) writeFile(line.text("json"), censusJson(survey, listed.left_out, flight));
+  if (line.has("json"))
+    writeFile(line.text("json"), inventoryJson(survey, listed.excluded, flight));
   return kDone;
 }
 

@@ -78,7 +78,8 @@ int intensity(const CommandLine& line) {
   const std::vector<std::string> outputs = outputsOf(line);
   const PointReference reference = commonReference(files);
   app::remarks(line, reference.remarks);
-  const auto flight = app::readFlight(line, reference.crs, 0.0, AttitudeUse::where_given, files);
+  const auto flight =
+      app::loadTrajectory(line, reference.crs, 0.0, AttitudeUse::where_given, files);
   if (!line.has("radiometry")) app::remark(line, extinction.remark);
   const auto page = line.has("report") ? makeIntensityPage() : nullptr;
   if (page) options.observe = [&page](const IntensityRun& run) { return page->observe(run); };

@@ -12,7 +12,7 @@
 #include "adjustment_options.h"
 #include "command_line.h"
 #include "flight_options.h"
-#include "remedy_options.h"
+#include "hint_options.h"
 
 namespace {
 

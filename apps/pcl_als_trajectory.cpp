@@ -5,8 +5,8 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/processing/flight_reconstruction.h>
 #include <pcl_als/processing/trajectory_conversion.h>
+#include <pcl_als/processing/trajectory_from_points.h>
 #include <pcl_als/report/trajectory_page.h>
 
 #include "command_line.h"
@@ -65,7 +65,8 @@ int reconstruct(const CommandLine& line) {
   options.attitude = !line.has("positions");
   TrajectoryPage page(line.has("report"));
   options.observer = page.observer();
-  const ReconstructedFlight flight = reconstructFlight(survey, options, app::progressOf(line));
+  const ReconstructedTrajectory flight =
+      reconstructTrajectory(survey, options, app::progressOf(line));
   writeReconstruction(flight, line.text("output"), crs);
   if (line.has("report")) page.write(app::reportOrigin(line), flight, line.inputs());
   if (flight.incomplete.empty()) return app::kDone;

@@ -13,7 +13,7 @@
 #include <pcl_als/io/prior_file.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/io/trajectory_writer.h>
-#include <pcl_als/processing/flight_reconstruction.h>
+#include <pcl_als/processing/trajectory_from_points.h>
 
 namespace pcl_als::app {
 namespace {
@@ -182,24 +182,26 @@ std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line) {
                               : std::vector<TrajectoryAccuracy>();
 }
 
-std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
-                                             double half_width, AttitudeUse attitude,
-                                             const std::vector<std::string>& points,
-                                             FlightFile* whole) {
-  FlightFileOptions options;
+std::shared_ptr<const Trajectory> loadTrajectory(const CommandLine& line,
+                                                 const std::string& points_crs, double half_width,
+                                                 AttitudeUse attitude,
+                                                 const std::vector<std::string>& points,
+                                                 LoadedTrajectory* whole) {
+  TrajectoryLoadingOptions options;
   static_cast<TrajectoryReading&>(options) = trajectoryReading(line, points_crs);
   options.line_fit_half_width = halfWidthOf(line, half_width);
   options.attitude = attitude;
   const std::vector<std::filesystem::path> files = trajectoryFiles(line);
   if (files.size() == 1 && files.front() == "reconstruct") {
-    FlightFile file = reconstructFlight(points, options, line.threads(), progressOf(line));
+    LoadedTrajectory file =
+        reconstructTrajectory(points, options, line.threads(), progressOf(line));
     if (whole != nullptr) *whole = file;
     return file.trajectory;
   }
   Step step("Reading " + (files.size() == 1 ? files.front().string()
                                             : counted(files.size(), "trajectory file")),
             line.quiet());
-  const FlightFile file = pcl_als::readFlight(files, options);
+  const LoadedTrajectory file = pcl_als::loadTrajectory(files, options);
   if (whole != nullptr) *whole = file;
   const Trajectory& flight = *file.trajectory;
   step.done(grouped(flight.size()) + " samples, " + counted(flight.gaps().size(), "gap") +

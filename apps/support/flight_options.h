@@ -10,7 +10,7 @@
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/processing/flight_file.h>
+#include <pcl_als/processing/trajectory_loading.h>
 
 #include "command_line.h"
 
@@ -63,9 +63,10 @@ TrajectoryReading trajectoryReading(const CommandLine& line, const std::string& 
 /// \a half_width: trajectory window in seconds where -line_fit is not given; 0: the library's.
 /// \a points: files for -trajectory reconstruct; empty: a UsageError. \a accuracy gets what the
 /// files state, if not null.
-std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
-                                             double half_width, AttitudeUse attitude,
-                                             const std::vector<std::string>& points = {},
-                                             FlightFile* whole = nullptr);
+std::shared_ptr<const Trajectory> loadTrajectory(const CommandLine& line,
+                                                 const std::string& points_crs, double half_width,
+                                                 AttitudeUse attitude,
+                                                 const std::vector<std::string>& points = {},
+                                                 LoadedTrajectory* whole = nullptr);
 
 }  // namespace pcl_als::app

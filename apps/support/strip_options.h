@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/strip_assignment.h>
 
 #include "command_line.h"
 

@@ -9,8 +9,8 @@
 #include <pcl_als/common/printable.h>
 
 #include "command_line.h"
+#include "hint_options.h"
 #include "interruption.h"
-#include "remedy_options.h"
 #include "standard_streams.h"
 
 namespace pcl_als::app {
@@ -53,9 +53,9 @@ int reportFailure(const CommandLine& line, const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);
   } catch (const UsageError& error) {
-    return failed(withOption(line, error), kWrongUsage);
+    return failed(withHint(line, error), kWrongUsage);
   } catch (const Error& error) {
-    return failed(withOption(line, error), kUnusableInput);
+    return failed(withHint(line, error), kUnusableInput);
   } catch (const std::bad_alloc&) {
     return failed("not enough memory", kUnusableInput);
   } catch (const std::exception& error) {

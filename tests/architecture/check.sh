@@ -113,6 +113,30 @@ done < <(sources modules | each '
         text = substr(rest, RSTART, RLENGTH)
         if (text ~ /["(,;: \047`]--?[a-z][a-z_]+/) print FILENAME ":" FNR ": " text } }')
 
+# Names that were replaced by the terms of the field do not come back.
+replaced=$here/replaced_names.txt
+[[ ! -e $replaced ]] || while IFS= read -r place; do
+  breach "${place%% *}" "uses the name ${place#* } (replaced_names.txt)"
+done < <(sources modules apps tests share | each '
+  BEGIN {
+    while ((getline line < "'"$replaced"'") > 0)
+      if (line !~ /^#/ && split(line, pair, " ") == 2) instead[pair[1]] = pair[2]
+  }
+  FNR == 1 { comment = 0 }
+  {
+    code = $0
+    gsub(/"([^"\\]|\\.)*"/, "\"\"", code)
+    sub(/\/\/.*/, "", code)
+    if (comment && !sub(/^.*\*\//, "", code)) next
+    comment = 0
+    gsub(/\/\*([^*]|\*[^\/])*\*\//, "", code)
+    if (sub(/\/\*.*/, "", code)) comment = 1
+    count = split(code, names, /[^A-Za-z0-9_]+/)
+    for (i = 1; i <= count; ++i)
+      if (names[i] in instead)
+        print FILENAME ":" FNR " " names[i] " instead of " instead[names[i]]
+  }')
+
 # A user of the calibration needs settings, result and one class; internal headers are in src/.
 installed=(modules/calibration/include/pcl_als/calibration/*.h)
 ((${#installed[@]} <= 4)) ||

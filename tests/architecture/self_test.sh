@@ -45,6 +45,8 @@ make_tree; echo 'void f() { std::cout << 1; }' >>modules/tin/src/a.cpp; expect 1
 make_tree; echo 'void f() { char b[9]; std::snprintf(b, 9, ""); }' >>modules/tin/src/a.cpp; expect 0 "keep to"
 make_tree; echo 'const char* s = "too far apart; see -max_distance";' >>modules/tin/src/a.cpp; expect 1 "names an option"
 make_tree; echo 'const char* s = "from 1 -", *t = "x" /* -y */;  // "-crs"' >>modules/tin/src/a.cpp; expect 0 "keep to"
+make_tree; echo 'int whole = sharing;' >>modules/tin/src/a.cpp; expect 1 "uses the name sharing instead of variance_inflation"
+make_tree; printf '/* sharing\n sharing */ const char* s = "sharing";  // sharing\n' >>modules/tin/src/a.cpp; expect 0 "keep to"
 make_tree; echo 'int x;' >modules/tin/src/a.cpp; expect 1 "no SPDX line"
 make_tree; printf '//\n%.0s' {1..400} >>modules/tin/src/a.cpp; expect 1 "more than 400"
 make_tree; cp modules/tin/src/a.cpp modules/tin/src/forgotten.cpp; expect 1 "is not listed"

@@ -125,7 +125,7 @@ StripPair simulatedPair(int seed, double density) {
   return pair;
 }
 
-Alignment alignOwn(const Points& source, const Points& target, const Options& options) {
+Alignment registerOwn(const Points& source, const Points& target, const Options& options) {
   pcl::PointCloud<pcl::PointXYZ>::Ptr clouds[2];
   for (const bool moving : {true, false}) {
     auto& cloud = clouds[moving ? 0 : 1];
@@ -153,7 +153,7 @@ Alignment alignOwn(const Points& source, const Points& target, const Options& op
 
 AlignmentMethod ownMethod(const Options& options) {
   return {"pcl_als ICPatch", [options](const Points& source, const Points& target) {
-            return alignOwn(source, target, options);
+            return registerOwn(source, target, options);
           }};
 }
 

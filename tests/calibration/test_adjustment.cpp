@@ -31,7 +31,7 @@ double smoothCorrelation(double a, double b, double node_spacing) {
 TEST(SharedErrors, PriorIsTheSumOfItsComponents) {
   const SharedErrors errors({{0.0, 25.0}, {100.0, 105.0}}, model());
   ASSERT_EQ(errors.knotCount(), 4 + 2);  // 25 s at 10 s: three steps of 8.33 s; 5 s: one step
-  SharedErrorLevels levels;
+  VarianceFactors levels;
   levels.constant.position = 0.5, levels.smooth.position = 3.0, levels.gauss_markov.heading = 4.0;
   const Eigen::MatrixXd covariance = Eigen::MatrixXd(errors.priorInformation(levels)).inverse();
   const double step = 25.0 / 3.0, node = 7.5;  // a quarter of the correlation time of 30 s
@@ -50,7 +50,7 @@ TEST(SharedErrors, PriorIsTheSumOfItsComponents) {
 
 TEST(SharedErrors, PriorDeterminantIsThatOfItsInformation) {
   const SharedErrors errors({{0.0, 25.0}, {100.0, 100.0}}, model(), {{{3.0, 9.0}}, {}});
-  SharedErrorLevels levels;
+  VarianceFactors levels;
   levels.constant.heading = 0.5, levels.smooth.roll_pitch = 3.0, levels.gauss_markov.position = 4.0;
   const Eigen::MatrixXd information = errors.priorInformation(levels);
   EXPECT_NEAR(errors.priorLogDeterminant(levels), information.ldlt().vectorD().array().log().sum(),

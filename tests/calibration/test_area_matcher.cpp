@@ -120,7 +120,7 @@ TEST(AreaMatcher, DividesPairsByDistance) {
   EXPECT_GT(found.far.size(), 100U);
   for (std::size_t i = 0; i < near.size(); ++i) {
     EXPECT_EQ(found.near[i].point, near[i].point);
-    EXPECT_EQ(found.near[i].sharing, near[i].sharing);
+    EXPECT_EQ(found.near[i].variance_inflation, near[i].variance_inflation);
   }
   // Chords: distances along the normal of the neighbourhood differ from those of the triangle.
   for (const PairObservation& o : found.far)
@@ -187,7 +187,7 @@ TEST(AreaMatcher, AControlPointsErrorIsOneInAllStrips) {
     EXPECT_EQ(o.a, PairObservation::kControl);
     EXPECT_NEAR(o.distance(SystemVector::Zero()), o.b == 0 ? 0.0 : 0.05 * o.normal.z(), 0.01);
     const double own = found[0].normal.z() * found[1].normal.z() * 0.03 * 0.03;
-    EXPECT_NEAR(o.sharing, 1.0 + own / o.variance, 1e-6);  // single precision
+    EXPECT_NEAR(o.variance_inflation, 1.0 + own / o.variance, 1e-6);  // single precision
     EXPECT_GT(o.variance, 0.9 * own);
   }
 }
@@ -227,7 +227,7 @@ TEST(AreaMatcher, CorrectsItsPoints) {
 }
 
 /// The second strip measures the area ahead of the sensor at \a first and behind it at \a second.
-AreaObservations pairsOfLooks(double first, double second, const Trajectory& trajectory) {
+AreaObservations pairsOfScanHalves(double first, double second, const Trajectory& trajectory) {
   const auto a = sampled(12, -8.0, 58.0, {0, 0, 0});
   auto b = sampled(13, -8.0, 58.0, {0, 0, 0.10}), back = sampled(14, -8.0, 58.0, {0, 0, -0.05});
   for (LidarReturn& p : b) p.time = first;
@@ -236,27 +236,27 @@ AreaObservations pairsOfLooks(double first, double second, const Trajectory& tra
   return matcherOf(a, b).match({{0, 1}}, 0.5, trajectory, NoiseModel());
 }
 
-TEST(AreaMatcher, MeasuresEachLookOfAConicalScanner) {
+TEST(AreaMatcher, MeasuresEachHalfOfAConicalScanner) {
   const Trajectory trajectory = flight();
-  const AreaObservations found = pairsOfLooks(5.0, 15.0, trajectory);
+  const AreaObservations found = pairsOfScanHalves(5.0, 15.0, trajectory);
   std::map<std::pair<int, int>, int> pairs;
   for (const PairObservation& o : found) {
     ++pairs[{o.surfaceA(), o.surfaceB()}];
-    const auto offset = [&](int strip, Look look) {
-      return strip == 0 ? 0.0 : look == Look::ahead ? 0.10 : -0.05;
+    const auto offset = [&](int strip, ScanHalf half) {
+      return strip == 0 ? 0.0 : half == ScanHalf::fore ? 0.10 : -0.05;
     };
-    const double expected = offset(o.a, o.look_a) - offset(o.b, o.look_b);
-    // Curvature; a triangle that joins both looks would be 0.05 m off on average.
+    const double expected = offset(o.a, o.half_a) - offset(o.b, o.half_b);
+    // Curvature; a triangle that joins both half-scans would be 0.05 m off on average.
     EXPECT_NEAR(o.distance(SystemVector::Zero()), expected * o.normal.z(), 0.03);
-    const auto time = [&](int strip, Look look) {
-      return strip == 0 ? 10.0 : look == Look::ahead ? 5.0 : 15.0;
+    const auto time = [&](int strip, ScanHalf half) {
+      return strip == 0 ? 10.0 : half == ScanHalf::fore ? 5.0 : 15.0;
     };
-    EXPECT_NEAR(o.time_a, time(o.a, o.look_a), 1e-9);
-    EXPECT_NEAR(o.time_b, time(o.b, o.look_b), 1e-9);
+    EXPECT_NEAR(o.time_a, time(o.a, o.half_a), 1e-9);
+    EXPECT_NEAR(o.time_b, time(o.b, o.half_b), 1e-9);
   }
-  // Two looks with the other strip and with each other, in both directions.
-  const int ahead = PairObservation::surfaceIndex(1, Look::ahead),
-            back = PairObservation::surfaceIndex(1, Look::back);
+  // Two half-scans with the other strip and with each other, in both directions.
+  const int ahead = PairObservation::surfaceIndex(1, ScanHalf::fore),
+            back = PairObservation::surfaceIndex(1, ScanHalf::aft);
   ASSERT_EQ(pairs.size(), 6U);
   for (const auto& [a, b] : {std::pair(0, ahead), {0, back}, {ahead, back}}) {
     EXPECT_GT((pairs[{a, b}]), 100);
@@ -268,10 +268,10 @@ TEST(AreaMatcher, KeepsAStripWholeThatIsMeasuredOnce) {
   const Trajectory trajectory = flight();
   for (const double second : {10.2, 5.0}) {  // 10.2: successive lines; 5.0: only ahead
     const double first = second < 10.0 ? 3.0 : 10.0;
-    for (const PairObservation& o : pairsOfLooks(first, second, trajectory)) {
+    for (const PairObservation& o : pairsOfScanHalves(first, second, trajectory)) {
       ASSERT_NE(o.a, o.b);
-      ASSERT_EQ(o.look_a, Look::whole);
-      ASSERT_EQ(o.look_b, Look::whole);
+      ASSERT_EQ(o.half_a, ScanHalf::whole);
+      ASSERT_EQ(o.half_b, ScanHalf::whole);
     }
   }
 }
@@ -321,7 +321,7 @@ MeanDistance meanDistance(unsigned draw) {
   for (const PairObservation& o :
        matcherOf(strips[0], strips[1], 1'000'000)
            .match({{0, 1}}, 0.5, trajectory, NoiseModel{0.02, 0.0, 0.0, 0.0})) {
-    const double weight = 1.0 / (o.variance * o.sharing);
+    const double weight = 1.0 / (o.variance * o.variance_inflation);
     sum += (o.a == 0 ? weight : -weight) * o.distance(SystemVector::Zero());
     weights += weight;
     pairs += 1.0 / o.variance;

@@ -177,9 +177,9 @@ TEST(SurveyBlock, LeavesOutStripsWithFewPoints) {
   given.strips[1].resize(500);
   const SurveyBlock block = chosen(given);
   EXPECT_EQ(block.strips.used, (std::vector<bool>{true, false, true}));
-  ASSERT_EQ(block.left_out.size(), 1U);
-  EXPECT_EQ(block.left_out[0].strip, "2");
-  EXPECT_EQ(block.left_out[0].reason, LeftOutReason::too_few_points);
+  ASSERT_EQ(block.excluded.size(), 1U);
+  EXPECT_EQ(block.excluded[0].strip, "2");
+  EXPECT_EQ(block.excluded[0].reason, ExclusionReason::too_few_points);
   ASSERT_EQ(block.pairs.size(), 1U);
   EXPECT_EQ(block.pairs[0], StripPair(0, 2));
   EXPECT_EQ(block.flownTimes()[1], TimeSpan(0.0, 0.0));

@@ -154,7 +154,7 @@ TEST(CalibrationJudgement, AnUncertainIncreaseCountsWhereTheBiasesAreSignificant
 
 TEST(CalibrationJudgement, TheMostSeriousReasonGivesTheStatus) {
   CalibrationResult result = resultWith(1e-3, 1e-5, kLarger);
-  result.verdict.object(CalibrationStatus::parameters_affected, "strip 7 does not belong here");
+  result.verdict.downgrade(CalibrationStatus::parameters_affected, "strip 7 does not belong here");
   const CalibrationVerdict verdict = verdictOn(result, "it did not converge");
   EXPECT_EQ(verdict.status, CalibrationStatus::not_converged);
   EXPECT_EQ(verdict.reason.find("strip 7 does not belong here; it did not converge; "), 0U)

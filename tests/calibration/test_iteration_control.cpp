@@ -44,7 +44,7 @@ class Driven {
     if (step.components) {
       EstimatedLevels levels;
       if (changes_components) levels.expected.gauss_markov.position = 3.0;
-      control_.recordComponents(SharedErrorLevels(), levels);
+      control_.recordComponents(VarianceFactors(), levels);
     }
     control_.record(before, {metres, metres, 0.0}, pairs_, solution_);
     if (selects) pairs_.moved = 0.0;

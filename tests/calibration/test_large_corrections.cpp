@@ -96,7 +96,7 @@ TEST(LargeCorrections, DoNotCrossLongGaps) {
 /// What a block of two strips knows: strip 1 from 100 to 120 s, strip 2 from 200 to 220 s.
 struct Known {
   std::vector<TrajectorySample> samples;
-  std::vector<FlownStrip> strips;
+  std::vector<StripTrajectory> strips;
   std::vector<AreaObservations> observations;
   std::vector<int> pass;
   std::optional<JumpSearch::Place> jump;
@@ -170,8 +170,8 @@ TEST(CorrectionCauses, NameGapsOfTheTrajectory) {
 }
 
 TEST(CorrectionCauses, NameTurnsAndRotations) {
-  Known turning;  // 4 degrees per second from 108 to 110 s, to the left
-  for (TrajectorySample& sample : turning.samples) {
+  Known turn;  // 4 degrees per second from 108 to 110 s, to the left
+  for (TrajectorySample& sample : turn.samples) {
     const double seconds = std::min(std::max(sample.time - 108.0, 0.0), 2.0);
     const double rate = 4.0 * kRadiansPerDegree, radius = 60.0 / rate;
     const double before = std::min(sample.time, 108.0) - 90.0;
@@ -179,8 +179,8 @@ TEST(CorrectionCauses, NameTurnsAndRotations) {
     sample.position.x() = 60.0 * before + radius * std::sin(angle) + 60.0 * after * std::cos(angle);
     sample.position.y() = radius * (1.0 - std::cos(angle)) + 60.0 * after * std::sin(angle);
   }
-  EXPECT_EQ(turning.causesOf(104.0, 106.0), Names{"turn"});
-  EXPECT_EQ(turning.causesOf(113.5, 115.0), Names());
+  EXPECT_EQ(turn.causesOf(104.0, 106.0), Names{"turn"});
+  EXPECT_EQ(turn.causesOf(113.5, 115.0), Names());
   Known rolling;  // to 5 degrees within a second at 108 s
   for (TrajectorySample& sample : rolling.samples)
     sample.roll = 5.0 * kRadiansPerDegree * std::min(std::max(sample.time - 108.0, 0.0), 1.0);

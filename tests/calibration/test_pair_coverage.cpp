@@ -49,7 +49,7 @@ TEST(PairCoverage, TwoFlightsAtDifferentHeightsAreNotUsable) {
             "2.30 m below strip 3 (median of 40 cells of 10 m), strip 2 lies 2.30 m below strip 3 "
             "(median of 80 cells of 10 m)");
   ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_EQ(result.warnings[0].remedy, Remedy::strips);
+  EXPECT_EQ(result.warnings[0].hint, Hint::strips);
 }
 
 // The lowest points of forest differ although the strips agree elsewhere.

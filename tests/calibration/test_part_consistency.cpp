@@ -52,7 +52,7 @@ TEST(PartConsistency, ADifferenceIsInTheStandardDeviation) {
   EXPECT_NEAR(result[P::scan_angle_scale].std, 0.5 * std::abs(found[0].difference), 1e-12);
   EXPECT_FALSE(result[P::scan_angle_scale].reason.empty());
   ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_EQ(result.warnings[0].remedy, Remedy::strips);
+  EXPECT_EQ(result.warnings[0].hint, Hint::strips);
 }
 
 }  // namespace

@@ -40,10 +40,10 @@ TEST_F(RoundedTimes, LeaveTheirStripOut) {
   EXPECT_NE(all.find("strip 4"), std::string::npos) << all;
   EXPECT_NE(all.find("whole seconds"), std::string::npos) << all;
   EXPECT_NE(all.find("left out"), std::string::npos) << all;
-  ASSERT_EQ(result.left_out.size(), 1U);
-  EXPECT_EQ(result.left_out[0].strip, "4");
-  EXPECT_EQ(result.left_out[0].reason, LeftOutReason::rounded_times);
-  EXPECT_EQ(result.left_out[0].points, survey.strips[3].size());
+  ASSERT_EQ(result.excluded.size(), 1U);
+  EXPECT_EQ(result.excluded[0].strip, "4");
+  EXPECT_EQ(result.excluded[0].reason, ExclusionReason::rounded_times);
+  EXPECT_EQ(result.excluded[0].points, survey.strips[3].size());
   for (const PairFit& pair : result.pairs) EXPECT_TRUE(pair.a != "4" && pair.b != "4");
   ASSERT_EQ(result[SystemParameter::lever_arm_y].status, ParameterStatus::estimated);
   const ParameterEstimate& arm = result[SystemParameter::lever_arm_y];

@@ -125,7 +125,7 @@ TEST(StripCovariance, ObservationsMakeDeviationsSmaller) {
   const Solved solved;
   StripErrors strip{"1", solved.errors.errorsOf(0, solved.solution.shared), {}};
   solved.adjustment.stripCovariance(solved.solution)->add(0, kSix, strip);
-  const double prior = std::sqrt(solved.errors.variances(SharedErrorLevels())[2]);
+  const double prior = std::sqrt(solved.errors.variances(VarianceFactors())[2]);
   ASSERT_EQ(strip.knots.size(), 21U);
   EXPECT_LT(strip.knots[3].position_std.z(), 0.8 * prior);  // 6 s: observed
   EXPECT_GT(strip.knots[10].position_std.z(), 1.05 * strip.knots[3].position_std.z());  // 20 s

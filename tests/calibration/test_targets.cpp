@@ -109,8 +109,8 @@ TEST(Targets, ShowShiftsInThreeDimensions) {
       const double sigma = o.isInPlan() ? 0.02 : 0.01;
       EXPECT_GT(o.variance, sigma * sigma);
       EXPECT_LT(std::sqrt(o.variance), 0.08);
-      EXPECT_GT(o.sharing, 1.0);
-      EXPECT_LT(o.sharing, 1.0 + std::sqrt(2.0));
+      EXPECT_GT(o.variance_inflation, 1.0);
+      EXPECT_LT(o.variance_inflation, 1.0 + std::sqrt(2.0));
     }
   }
 }

@@ -105,12 +105,12 @@ struct AllComponents {
   }
 };
 
-using Logarithms = Eigen::Matrix<double, SharedErrorLevels::kCount, 1>;
-SharedErrorLevels levelsOf(const Logarithms& logarithms) {
-  std::array<double, SharedErrorLevels::kCount> values{};
+using Logarithms = Eigen::Matrix<double, VarianceFactors::kCount, 1>;
+VarianceFactors levelsOf(const Logarithms& logarithms) {
+  std::array<double, VarianceFactors::kCount> values{};
   for (std::size_t k = 0; k < values.size(); ++k)
     values[k] = std::exp(logarithms[static_cast<Eigen::Index>(k)]);
-  return SharedErrorLevels::of(values);
+  return VarianceFactors::of(values);
 }
 
 /// With a dense factor (few knots) and a sparse one.
@@ -124,7 +124,7 @@ TEST_P(Likelihood, GradientEqualsCentralDifferences) {
   at << 0.3, -1.0, 0.2, 0.1, -0.4, 0.8, -2.0, 0.5, 0.1, -0.3;
   const auto likelihood = block.adjustment.restrictedLikelihood(levelsOf(at), kSix);
   constexpr double kStep = 1e-3;
-  for (int k = 0; k < SharedErrorLevels::kCount; ++k) {
+  for (int k = 0; k < VarianceFactors::kCount; ++k) {
     Logarithms more = at, less = at;
     more[k] += kStep;
     less[k] -= kStep;
@@ -180,9 +180,9 @@ TEST(VarianceComponents, AreNearTheMostLikely) {
   // likelihood by one. The expectation is s^2 / 2 above the most likely logarithm, which changes it
   // by s^2 / 4, at most by 0.125; the search leaves steps of 0.01 each.
   AllComponents block(1.0);
-  const SharedErrorLevels best = estimateLevels(block.adjustment, kSix).expected;
-  const auto cost = [&](const std::array<double, SharedErrorLevels::kCount>& values) {
-    const SharedErrorLevels levels = SharedErrorLevels::of(values);
+  const VarianceFactors best = estimateLevels(block.adjustment, kSix).expected;
+  const auto cost = [&](const std::array<double, VarianceFactors::kCount>& values) {
+    const VarianceFactors levels = VarianceFactors::of(values);
     double sum = block.adjustment.restrictedLikelihood(levels, kSix).deviance;
     for (std::size_t k = 0; k < values.size(); ++k) {
       // Of position, roll and pitch, heading, the last is expected to be as that of roll and pitch.
@@ -192,7 +192,7 @@ TEST(VarianceComponents, AreNearTheMostLikely) {
     return sum;
   };
   const double lowest = cost(best.values());
-  for (std::size_t k = 0; k < SharedErrorLevels::kCount; ++k) {
+  for (std::size_t k = 0; k < VarianceFactors::kCount; ++k) {
     for (const double factor : {1.0 / 1.2, 1.2}) {
       auto values = best.values();
       values[k] *= factor;
@@ -212,7 +212,7 @@ TEST(VarianceComponents, UndeterminedOnesAreThoseOfTheModel) {
 }
 
 /// Variance over that of the model of the sum of the components of an error.
-double allOf(const SharedErrorLevels& levels, double SharedErrorLevels::Trajectory::*kind) {
+double allOf(const VarianceFactors& levels, double VarianceFactors::Trajectory::*kind) {
   const SharedErrorModel shares;
   return shares.constant_share * levels.constant.*kind + shares.smooth_share * levels.smooth.*kind +
          (1.0 - shares.constant_share - shares.smooth_share) * levels.gauss_markov.*kind;
@@ -220,16 +220,17 @@ double allOf(const SharedErrorLevels& levels, double SharedErrorLevels::Trajecto
 
 /// The components that four strips with errors of the roll give; observations 300 m to both sides
 /// of the flight lines, which do not show errors of the heading.
-SharedErrorLevels levelsOfRoll(double roll_arcsec) {
-  constexpr double kAside = 300.0;  // metres from the flight line, to either side
-  std::vector<AreaObservations> areas = smoothlyWrong(kAside * roll_arcsec * kRadiansPerArcsec, 5);
+VarianceFactors levelsOfRoll(double roll_arcsec) {
+  constexpr double kAcrossTrack = 300.0;  // metres from the flight line, to either side
+  std::vector<AreaObservations> areas =
+      smoothlyWrong(kAcrossTrack * roll_arcsec * kRadiansPerArcsec, 5);
   for (AreaObservations& area : areas) {
     AreaObservations both;
     for (PairObservation o : area) {
       o.row_b[indexOf(P::scan_angle_scale)] = 0.0;
-      o.row_b[indexOf(P::boresight_roll)] = kAside;
+      o.row_b[indexOf(P::boresight_roll)] = kAcrossTrack;
       both.push_back(o);
-      o.row_b[indexOf(P::boresight_roll)] = -kAside;
+      o.row_b[indexOf(P::boresight_roll)] = -kAcrossTrack;
       o.misclosure = -o.misclosure;
       both.push_back(o);
     }
@@ -247,20 +248,20 @@ SharedErrorLevels levelsOfRoll(double roll_arcsec) {
 /// limited to four times, and boresight_roll 8 standard deviations wrong. The heading, which these
 /// observations do not show, is as much worse a priori.
 TEST(VarianceComponents, AttitudeOfAnotherGradeIsFound) {
-  const SharedErrorLevels found = levelsOfRoll(80.0);
+  const VarianceFactors found = levelsOfRoll(80.0);
   // Four strips: a variance is known to a factor of three.
-  EXPECT_GT(allOf(found, &SharedErrorLevels::Trajectory::roll_pitch), 30.0);
-  EXPECT_LT(allOf(found, &SharedErrorLevels::Trajectory::roll_pitch), 300.0);
-  EXPECT_GT(allOf(found, &SharedErrorLevels::Trajectory::heading), 10.0);
-  EXPECT_LT(allOf(found, &SharedErrorLevels::Trajectory::position), 16.1);
+  EXPECT_GT(allOf(found, &VarianceFactors::Trajectory::roll_pitch), 30.0);
+  EXPECT_LT(allOf(found, &VarianceFactors::Trajectory::roll_pitch), 300.0);
+  EXPECT_GT(allOf(found, &VarianceFactors::Trajectory::heading), 10.0);
+  EXPECT_LT(allOf(found, &VarianceFactors::Trajectory::position), 16.1);
 }
 
 /// Errors of the roll far below the model: those of the heading were expected to be as large as the
 /// model's, and the standard deviation of the boresight heading was three times too large.
 TEST(VarianceComponents, AttitudeOfABetterGradeIsFound) {
-  const SharedErrorLevels found = levelsOfRoll(0.08);
-  EXPECT_LT(allOf(found, &SharedErrorLevels::Trajectory::roll_pitch), 0.03);
-  EXPECT_LT(allOf(found, &SharedErrorLevels::Trajectory::heading), 0.05);
+  const VarianceFactors found = levelsOfRoll(0.08);
+  EXPECT_LT(allOf(found, &VarianceFactors::Trajectory::roll_pitch), 0.03);
+  EXPECT_LT(allOf(found, &VarianceFactors::Trajectory::heading), 0.05);
 }
 
 }  // namespace

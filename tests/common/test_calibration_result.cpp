@@ -19,8 +19,9 @@ TEST(CalibrationResult, BelongsToTheFlightThatItsStripsWereMeasuredIn) {
   calibration.strip_errors = {strip("1", 100.0, 200.0), {"2", {}, {}}, strip("3", 1000.0, 1100.0)};
   EXPECT_FALSE(isOfAnotherFlight(calibration, 50.0, 2000.0));
   EXPECT_FALSE(isOfAnotherFlight(calibration, 150.0, 160.0));
-  EXPECT_FALSE(isOfAnotherFlight(calibration, 201.0, 300.0));  // within RecoveredAttitude::kReach
-  EXPECT_TRUE(isOfAnotherFlight(calibration, 300.0, 900.0));   // between two sessions
+  EXPECT_FALSE(isOfAnotherFlight(calibration, 201.0,
+                                 300.0));  // within RecoveredAttitude::kMaximumExtrapolation
+  EXPECT_TRUE(isOfAnotherFlight(calibration, 300.0, 900.0));  // between two sessions
   EXPECT_TRUE(isOfAnotherFlight(calibration, 5000.0, 6000.0));
   calibration.recovered_attitude.addPass({{5500.0, {}}});
   EXPECT_FALSE(isOfAnotherFlight(calibration, 5000.0, 6000.0));
@@ -30,7 +31,7 @@ TEST(CalibrationResult, BelongsToTheFlightThatItsStripsWereMeasuredIn) {
 
 TEST(CalibrationResult, TheInstrumentPartHoldsNothingOfTheFlight) {
   CalibrationResult calibration;
-  calibration.verdict.object(CalibrationStatus::no_improvement, "reason");
+  calibration.verdict.downgrade(CalibrationStatus::no_improvement, "reason");
   calibration.attitude = AttitudeSource::points;
   calibration[SystemParameter::range_bias].bias = 0.1;
   calibration.systems.resize(2);

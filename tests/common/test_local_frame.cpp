@@ -45,7 +45,8 @@ TEST(LocalFrame, OtherOriginsWouldNotSurvive) {
 TEST(LocalFrame, RoundTripWithinReachIsUnderAQuarterMillimetre) {
   const LocalFrame frame = LocalFrame::around({583394.0, 5283100.0, 498.0});
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> offset(-LocalFrame::kReach, LocalFrame::kReach);
+  std::uniform_real_distribution<double> offset(-LocalFrame::kMaximumExtent,
+                                                LocalFrame::kMaximumExtent);
   for (int i = 0; i < 10000; ++i) {
     const Eigen::Vector3d ground =
         frame.origin + Eigen::Vector3d(offset(random), offset(random), offset(random));

@@ -84,12 +84,12 @@ TEST(SharedWork, FailureOfOneIsThatOfAll) {
     const ProgressCallback callback = sharedProgress(&process, {});
     try {
       doTogether(&process, [&] {
-        if (process.rank() == 1) throw InputError("file 7 is damaged", Remedy::strips);
+        if (process.rank() == 1) throw InputError("file 7 is damaged", Hint::strips);
         ProgressReport progress(callback);  // the others work until they are told
         for (;;) progress.advance(0.1);
       });
     } catch (const InputError& error) {
-      EXPECT_EQ(error.remedy(), Remedy::strips);
+      EXPECT_EQ(error.hint(), Hint::strips);
       throw;
     }
   });

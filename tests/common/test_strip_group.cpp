@@ -33,9 +33,9 @@ TEST(StripGroup, KnowsThePassOfAChannel) {
   EXPECT_EQ(passOfStrip("a.chip"), "a.chip");
 }
 
-TEST(OwnUnknowns, ReadsNamesAndGroups) {
+TEST(PerSystemParameters, ReadsNamesAndGroups) {
   using P = SystemParameter;
-  const OwnUnknowns own = ownUnknowns("boresight,range_bias,offset");
+  const PerSystemParameters own = ownUnknowns("boresight,range_bias,offset");
   EXPECT_EQ(own.parameters, (std::vector<P>{P::boresight_pitch, P::boresight_roll,
                                             P::boresight_heading, P::range_bias}));
   EXPECT_TRUE(own.offset);

@@ -128,7 +128,7 @@ TEST(CurvePanels, ShareTheHeightAxis) {
 TEST(CurvePanels, KeepsTheLargestAndRefusesNothing) {
   CurvePanels plot = panelsOf(20);
   plot.keepLargest();
-  ASSERT_EQ(plot.panels.size(), CurvePanels::kMost);
+  ASSERT_EQ(plot.panels.size(), CurvePanels::kMaximumPanels);
   EXPECT_EQ(plot.panels.front().title, "pair 4");
   EXPECT_THROW(drawCurvePanels({}), UsageError);
   EXPECT_THROW(drawCurvePanels(panelsOf(16), {300, 200}), UsageError);

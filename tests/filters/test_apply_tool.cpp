@@ -259,7 +259,7 @@ TEST(ApplyTool, ACalibrationWithAnAdverseVerdictNeedsForce) {
   Flight flight("verdict");
   CalibrationResult calibration;
   calibration[SystemParameter::boresight_roll].bias = 90.0 * kRadiansPerArcsec;
-  calibration.verdict.object(CalibrationStatus::not_converged, "it did not converge");
+  calibration.verdict.downgrade(CalibrationStatus::not_converged, "it did not converge");
   writeCalibration(flight.path("calibration.json"), calibration);
   const std::string arguments =
       "strip.las out.las -trajectory trajectory.csv -calibration calibration.json";

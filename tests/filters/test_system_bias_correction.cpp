@@ -196,7 +196,7 @@ TEST(SystemBiasCorrection, CorrectsEachPointByItsSystem) {
 
 TEST(SystemBiasCorrection, ACalibrationWithAnAdverseVerdictIsRefused) {
   CalibrationResult result;
-  result.verdict.object(CalibrationStatus::no_improvement, "the misfit is larger");
+  result.verdict.downgrade(CalibrationStatus::no_improvement, "the misfit is larger");
   SystemBiasCorrection<PointLidar> filter;
   EXPECT_THROW(filter.setCalibration(result), UsageError);
 }
@@ -358,7 +358,8 @@ TEST(SystemBiasCorrection, HundredKilometresInPartsAreRightToAMillimetre) {
   constexpr double kSeconds = 100000.0 / 60.0;
   const auto trajectory = flownNorth(kOrigin, kSeconds);
   const auto points = swath(kOrigin, kSeconds, 60000);
-  constexpr std::size_t kParts = 14;  // 7.2 km each: within LocalFrame::kReach of the middle
+  constexpr std::size_t kParts =
+      14;  // 7.2 km each: within LocalFrame::kMaximumExtent of the middle
   double largest = 0.0, worst_whole = 0.0;
   for (std::size_t part = 0; part < kParts; ++part) {
     const std::size_t first = points.size() * part / kParts;

@@ -10,10 +10,10 @@
 #include <unistd.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/dataset_inventory.h>
 #include <pcl_als/io/image_block_io.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/point_reader.h>
-#include <pcl_als/io/survey_census.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/las/las_file.h>
@@ -76,7 +76,7 @@ void readLas(const std::filesystem::path& path) {
   std::vector<double> values;
   for (const LasExtraField& field : file.extraFields())
     decodeLasExtraField(records.data(), header.point_count, header.record_length, field, values);
-  takeCensus({path});
+  takeInventory({path});
 }
 
 /// Windows and levels of an octree. A small file may hold many equal points: some are enough.
@@ -101,7 +101,7 @@ void readCopc(const std::filesystem::path& path) {
 
 void readPcd(const std::filesystem::path& path) {
   loadPcd(path);
-  takeCensus({path});
+  takeInventory({path});
 }
 
 /// A trajectory without its projection to a map, and with the names of its columns given.

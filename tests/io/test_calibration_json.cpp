@@ -251,7 +251,7 @@ TEST(CalibrationJson, UsesTheInterfacesNamesAndUnits) {
 TEST(CalibrationJson, KeepsTheVerdictAndTheMisfit) {
   const auto path = test::scratch("calibration_json") / "verdict.json";
   CalibrationResult written = example();
-  written.verdict.object(CalibrationStatus::no_improvement, "the misfit is larger");
+  written.verdict.downgrade(CalibrationStatus::no_improvement, "the misfit is larger");
   written.misfit = {5310, 42, 0.031, 0.033, 0.2, 0.0005};
   writeCalibration(path, written);
   EXPECT_NE(textOf(path).find("\"status\": \"no_improvement\""), std::string::npos);

@@ -4,10 +4,10 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/header_box.h>
+#include <pcl_als/io/dataset_inventory.h>
 #include <pcl_als/io/measured_box.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/strip_naming.h>
-#include <pcl_als/io/survey_census.h>
 #include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/las/point_box.h>
 
@@ -118,13 +118,13 @@ TEST(MeasuredBox, GivesTheCellsOfTheCensus) {
   las.scale = 0.01;  // 7 km times 11 km
   const auto folder = test::scratch("measured_census");
   test::writeBytes(folder / "in.las", las.str());
-  const SurveyCensus right = takeCensus({folder / "in.las"});
+  const DatasetInventory right = takeInventory({folder / "in.las"});
   for (const test::WrongBox& wrong : test::wrongBoxes(las)) {
     test::writeBytes(folder / "in.las", wrong.bytes);
-    const SurveyCensus census = takeCensus({folder / "in.las"});
-    EXPECT_EQ(census.cell, right.cell) << wrong.name;
-    EXPECT_EQ(census.strips[0].area, right.strips[0].area) << wrong.name;
-    const auto& remarks = census.files[0].remarks;
+    const DatasetInventory inventory = takeInventory({folder / "in.las"});
+    EXPECT_EQ(inventory.cell, right.cell) << wrong.name;
+    EXPECT_EQ(inventory.strips[0].area, right.strips[0].area) << wrong.name;
+    const auto& remarks = inventory.files[0].remarks;
     EXPECT_EQ(std::count_if(remarks.begin(), remarks.end(),
                             [](const Warning& remark) {
                               return remark.text.find("bounding box is wrong") != std::string::npos;

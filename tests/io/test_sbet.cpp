@@ -270,7 +270,7 @@ TEST(Sbet, WithoutACrsTheRemedyIsNamed) {
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_NE(std::string(error.what()).find("name no CRS"), std::string::npos) << error.what();
-    EXPECT_EQ(error.remedy(), Remedy::crs);
+    EXPECT_EQ(error.hint(), Hint::crs);
   }
 }
 

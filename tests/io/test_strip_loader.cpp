@@ -45,7 +45,7 @@ TEST(StripLoader, JoinsTilesInFileOrder) {
   ASSERT_EQ(strips[0].cloud->size(), 20U);
   for (std::size_t i = 0; i < 20; ++i) {
     const PointLidar& p = (*strips[0].cloud)[i];
-    // 0.25 mm: a float's step within LocalFrame::kReach.
+    // 0.25 mm: a float's step within LocalFrame::kMaximumExtent.
     EXPECT_NEAR(strips[0].frame.toGround(p.getVector3fMap()).x(), 583000.0 + i, 2.5e-4);
     EXPECT_EQ(p.gps_time, 583000.0 + static_cast<double>(i));
   }
@@ -60,7 +60,7 @@ TEST(StripLoader, CutsALongStripIntoParts) {
   for (const auto& strip : strips) {
     EXPECT_EQ(strip.id, "7");
     for (const PointLidar& p : *strip.cloud) {
-      ASSERT_LT(std::hypot(p.x, p.y), LocalFrame::kReach);
+      ASSERT_LT(std::hypot(p.x, p.y), LocalFrame::kMaximumExtent);
       const double x = strip.frame.toGround(p.getVector3fMap()).x();
       ASSERT_NEAR(x, p.gps_time * 10.0 - 4500000.0, 2.5e-4);
       ++points;

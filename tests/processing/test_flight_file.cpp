@@ -12,7 +12,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/processing/flight_file.h>
+#include <pcl_als/processing/trajectory_loading.h>
 
 #include "test_files.h"
 
@@ -63,13 +63,13 @@ fs::path onMap(const fs::path& path, As as, double course, double start) {
   return path;
 }
 
-FlightFileOptions options() {
-  FlightFileOptions options;
+TrajectoryLoadingOptions options() {
+  TrajectoryLoadingOptions options;
   options.keep_samples = true;
   return options;
 }
 
-void expectEqual(const FlightFile& flight, const FlightFile& other) {
+void expectEqual(const LoadedTrajectory& flight, const LoadedTrajectory& other) {
   ASSERT_EQ(flight.samples.size(), other.samples.size());
   for (std::size_t i = 0; i < flight.samples.size(); ++i) {
     const TrajectorySample &a = flight.samples[i], &b = other.samples[i];
@@ -81,19 +81,20 @@ void expectEqual(const FlightFile& flight, const FlightFile& other) {
   }
 }
 
-bool remarks(const FlightFile& flight, const std::string& text) {
+bool remarks(const LoadedTrajectory& flight, const std::string& text) {
   return std::any_of(flight.remarks.begin(), flight.remarks.end(), [&](const std::string& remark) {
     return remark.find(text) != std::string::npos;
   });
 }
 
-TEST(FlightFile, TakesEveryFormOfAnAttitudeAsTheSame) {
+TEST(LoadedTrajectory, TakesEveryFormOfAnAttitudeAsTheSame) {
   const fs::path folder = test::scratch("flight_file");
   for (const double course : {12.0, 101.0, 192.0, 303.0}) {
-    const FlightFile plain =
-        readFlight(onMap(folder / "p.csv", As::heading, course, 1e5), options());
+    const LoadedTrajectory plain =
+        loadTrajectory(onMap(folder / "p.csv", As::heading, course, 1e5), options());
     for (const As as : {As::yaw_from_east, As::quaternion_ned, As::quaternion_enu}) {
-      const FlightFile flight = readFlight(onMap(folder / "f.csv", as, course, 1e5), options());
+      const LoadedTrajectory flight =
+          loadTrajectory(onMap(folder / "f.csv", as, course, 1e5), options());
       expectEqual(flight, plain);
       EXPECT_TRUE(flight.trajectory->hasAttitude());
       EXPECT_TRUE(remarks(flight, as == As::quaternion_ned ? "to north, east, down, as the course"
@@ -104,58 +105,59 @@ TEST(FlightFile, TakesEveryFormOfAnAttitudeAsTheSame) {
   }
 }
 
-TEST(FlightFile, JoinsFilesOfDifferentForms) {
+TEST(LoadedTrajectory, JoinsFilesOfDifferentForms) {
   const fs::path folder = test::scratch("flight_file_forms");
   const auto flown = [&](As first, As second, As third) {
-    return readFlight({onMap(folder / "1.csv", first, 12.0, 1e5),
-                       onMap(folder / "2.csv", second, 101.0, 1e5 + 100.0),
-                       onMap(folder / "3.csv", third, 192.0, 1e5 + 200.0)},
-                      options());
+    return loadTrajectory({onMap(folder / "1.csv", first, 12.0, 1e5),
+                           onMap(folder / "2.csv", second, 101.0, 1e5 + 100.0),
+                           onMap(folder / "3.csv", third, 192.0, 1e5 + 200.0)},
+                          options());
   };
-  const FlightFile plain = flown(As::heading, As::heading, As::heading);
+  const LoadedTrajectory plain = flown(As::heading, As::heading, As::heading);
   expectEqual(flown(As::heading, As::yaw_from_east, As::quaternion_enu), plain);
   expectEqual(flown(As::quaternion_ned, As::heading, As::yaw_from_east), plain);
 }
 
-TEST(FlightFile, AsksForAxesThatTheCourseDoesNotShow) {
+TEST(LoadedTrajectory, AsksForAxesThatTheCourseDoesNotShow) {
   const fs::path folder = test::scratch("flight_file_undecided");
   const fs::path path = onMap(folder / "diagonal.csv", As::quaternion_enu, 47.0, 1e5);
   try {
-    readFlight(path, options());
+    loadTrajectory(path, options());
     FAIL() << "read";
   } catch (const InputError& error) {
-    EXPECT_EQ(error.remedy(), Remedy::axes);
+    EXPECT_EQ(error.hint(), Hint::axes);
     EXPECT_NE(std::string(error.what())
                   .find("diagonal.csv: the course does not show whether its "
                         "quaternions turn the body to north, east, down"),
               std::string::npos)
         << error.what();
   }
-  const FlightFile plain = readFlight(onMap(folder / "p.csv", As::heading, 47.0, 1e5), options());
-  FlightFileOptions stated = options();
+  const LoadedTrajectory plain =
+      loadTrajectory(onMap(folder / "p.csv", As::heading, 47.0, 1e5), options());
+  TrajectoryLoadingOptions stated = options();
   stated.axes = AttitudeAxes::enu;
-  expectEqual(readFlight(path, stated), plain);
+  expectEqual(loadTrajectory(path, stated), plain);
   // Where no attitude is used, none is needed, and none is passed on.
-  FlightFileOptions positions = options();
+  TrajectoryLoadingOptions positions = options();
   positions.attitude = AttitudeUse::ignore;
-  const FlightFile flight = readFlight(path, positions);
+  const LoadedTrajectory flight = loadTrajectory(path, positions);
   EXPECT_FALSE(flight.samples.front().hasAttitude());
   EXPECT_EQ(flight.samples.size(), 200U);
   // Another file of the flight shows what this one does not.
   const fs::path north = onMap(folder / "north.csv", As::quaternion_enu, 2.0, 1e5 + 100.0);
-  EXPECT_TRUE(readFlight({path, north}, options()).trajectory->hasAttitude());
+  EXPECT_TRUE(loadTrajectory({path, north}, options()).trajectory->hasAttitude());
 }
 
-TEST(FlightFile, StatedAxesOfAYawAreKept) {
+TEST(LoadedTrajectory, StatedAxesOfAYawAreKept) {
   const fs::path path =
       onMap(test::scratch("flight_file_stated") / "f.csv", As::yaw_from_east, 12.0, 1e5);
-  FlightFileOptions stated = options();
+  TrajectoryLoadingOptions stated = options();
   stated.axes = AttitudeAxes::ned;
-  EXPECT_NEAR(readFlight(path, stated).samples[0].heading,
+  EXPECT_NEAR(loadTrajectory(path, stated).samples[0].heading,
               (90.0 - 12.0 + kCrab) * kRadiansPerDegree, 1e-9);
 }
 
-TEST(FlightFile, IsInspectedWithTheAxesOfTheCourse) {
+TEST(LoadedTrajectory, IsInspectedWithTheAxesOfTheCourse) {
   const fs::path folder = test::scratch("flight_file_facts");
   const auto facts = [](const fs::path& path, AttitudeAxes axes) {
     TrajectoryReading reading;
@@ -196,20 +198,21 @@ fs::path onEllipsoid(const fs::path& path, As as, double course) {
 
 // 2026-11: the convergence was added to the yaw before this became a heading, which gave it the
 // wrong sign: 4.1 degrees here, 2.8 degrees of longitude west of the central meridian.
-TEST(FlightFile, TurnsEveryFormToGridNorth) {
+TEST(LoadedTrajectory, TurnsEveryFormToGridNorth) {
   const fs::path folder = test::scratch("flight_file_north");
-  FlightFileOptions in_utm = options();
+  TrajectoryLoadingOptions in_utm = options();
   in_utm.crs = "EPSG:32632";
   const double convergence = -2.8 * std::sin(47.0 * kRadiansPerDegree);  // degrees
   for (const double course : {20.0, 110.0, 250.0}) {
-    const FlightFile plain = readFlight(onEllipsoid(folder / "p.csv", As::heading, course), in_utm);
+    const LoadedTrajectory plain =
+        loadTrajectory(onEllipsoid(folder / "p.csv", As::heading, course), in_utm);
     const double turned = plain.samples[0].heading - (course - kCrab) * kRadiansPerDegree;
     EXPECT_NEAR(turned / kRadiansPerDegree, -convergence, 0.01);
     for (const As as : {As::yaw_from_east, As::quaternion_ned, As::quaternion_enu})
-      expectEqual(readFlight(onEllipsoid(folder / "f.csv", as, course), in_utm), plain);
-    FlightFileOptions stated = in_utm;
+      expectEqual(loadTrajectory(onEllipsoid(folder / "f.csv", as, course), in_utm), plain);
+    TrajectoryLoadingOptions stated = in_utm;
     stated.axes = AttitudeAxes::enu;
-    expectEqual(readFlight(onEllipsoid(folder / "f.csv", As::quaternion_enu, course), stated),
+    expectEqual(loadTrajectory(onEllipsoid(folder / "f.csv", As::quaternion_enu, course), stated),
                 plain);
   }
 }

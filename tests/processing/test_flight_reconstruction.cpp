@@ -8,8 +8,8 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/processing/flight_reconstruction.h>
 #include <pcl_als/processing/simulated_survey.h>
+#include <pcl_als/processing/trajectory_from_points.h>
 #include <pcl_als/simulation/simulator.h>
 
 #include "real_data.h"
@@ -53,16 +53,16 @@ struct Town {
   }
 };
 
-ReconstructedFlight reconstructed(const std::vector<std::string>& files,
-                                  const ReconstructionOptions& options = {}) {
+ReconstructedTrajectory reconstructed(const std::vector<std::string>& files,
+                                      const ReconstructionOptions& options = {}) {
   SurveyReader survey(files, 1);
-  return reconstructFlight(survey, options);
+  return reconstructTrajectory(survey, options);
 }
 
 // Coordinates in whole millimetres and returns some ten metres apart: centimetres.
 TEST(FlightReconstruction, FindsPositionAndAttitudeOfABlock) {
   const Town town("flight_reconstruction");
-  const ReconstructedFlight flight = reconstructed(town.files);
+  const ReconstructedTrajectory flight = reconstructed(town.files);
   ASSERT_TRUE(flight.incomplete.empty()) << flight.incomplete;
   ASSERT_EQ(flight.paths.size(), town.files.size());
   ASSERT_EQ(flight.samples.size(), flight.accuracy.size());
@@ -96,7 +96,7 @@ double rmsDifference(const std::vector<std::string>& files, const fs::path& refe
                      std::size_t& compared) {
   ReconstructionOptions options;
   options.attitude = false;
-  const ReconstructedFlight flight = reconstructed(files, options);
+  const ReconstructedTrajectory flight = reconstructed(files, options);
   const Trajectory other(readTrajectory(reference));
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   std::size_t cursor = 0;
@@ -134,7 +134,7 @@ TEST(FlightReconstruction, WritesWhatItReads) {
   ReconstructionOptions options;
   options.attitude = false;
   options.strips.only = {"3"};
-  const ReconstructedFlight flight = reconstructed(town.files, options);
+  const ReconstructedTrajectory flight = reconstructed(town.files, options);
   EXPECT_EQ(flight.paths.size(), 1U);
   const fs::path csv = town.folder / "reconstructed.csv";
   writeReconstruction(flight, csv, {});

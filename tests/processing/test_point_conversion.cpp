@@ -215,8 +215,8 @@ TEST(PointConversion, ChoosesStrips) {
   options.strips.only = {"57138"};
   const auto result = convertPointFiles({in}, folder / "one.laz", options);
   EXPECT_EQ(result.outputs[0].points, 500U);
-  ASSERT_EQ(result.left_out.size(), 1U);
-  EXPECT_EQ(result.left_out[0].points, 500U);
+  ASSERT_EQ(result.excluded.size(), 1U);
+  EXPECT_EQ(result.excluded[0].points, 500U);
   for (const std::uint16_t id : pointsOf(folder / "one.laz").point_source_id) EXPECT_EQ(id, 57138);
   options.strips.only = {"3"};
   EXPECT_THROW(convertPointFiles({in}, folder / "none.laz", options), UsageError);

@@ -44,18 +44,18 @@ void correct(const CalibrationResult& result, SimulatedSurvey& survey) {
     const std::size_t count = points.size();
     std::vector<double> time, axes[3], change[3];
     std::vector<float> intensity;
-    std::vector<std::int8_t> turning;
+    std::vector<std::int8_t> scan_direction;
     const std::vector<std::uint16_t> source(count, static_cast<std::uint16_t>(strip + 1));
     for (const LidarReturn& point : points) {
       time.push_back(point.time);
       intensity.push_back(point.intensity);
-      turning.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
+      scan_direction.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
       for (int axis = 0; axis < 3; ++axis) axes[axis].push_back(point.position[axis]);
     }
     for (std::vector<double>& values : change) values.resize(count);
     CoverageCount coverage;
     correction.change({time.data(), axes[0].data(), axes[1].data(), axes[2].data(),
-                       intensity.data(), turning.data(), source.data()},
+                       intensity.data(), scan_direction.data(), source.data()},
                       count, {change[0].data(), change[1].data(), change[2].data()}, coverage);
     for (std::size_t i = 0; i < count; ++i)
       points[i].position += Eigen::Vector3d(change[0][i], change[1][i], change[2][i]);

@@ -4,7 +4,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/pcd_io.h>
-#include <pcl_als/processing/impl/strip_check.hpp>
+#include <pcl_als/processing/impl/delivery_check.hpp>
 
 #include "own_point.h"
 #include "simulated_strips.h"
@@ -41,7 +41,7 @@ CheckSettings quick() {
 
 template <typename PointT>
 CheckedBlock checked() {
-  StripCheck<PointT> check;
+  DeliveryCheck<PointT> check;
   for (const test::SimulatedStrip& made : strips().strips)
     check.addInputStrip(test::cloudOf<PointT>(*made.strip.cloud), made.strip.frame, made.strip.id);
   check.setTrajectory(strips().flight);
@@ -89,7 +89,7 @@ void expectEqual(const CheckedBlock& one, const CheckedBlock& other) {
     EXPECT_EQ(one.control->differences[i].above, other.control->differences[i].above);
 }
 
-TEST(StripCheck, EqualsTheCheckOfPcdFilesToTheLastBit) {
+TEST(DeliveryCheck, EqualsTheCheckOfPcdFilesToTheLastBit) {
   const fs::path folder = test::scratch("check_of_clouds");
   std::vector<std::string> files;
   for (const test::SimulatedStrip& made : strips().strips) {
@@ -97,21 +97,21 @@ TEST(StripCheck, EqualsTheCheckOfPcdFilesToTheLastBit) {
     savePcd(files.back(), made.strip);
   }
   SurveyReader survey(files, 0);
-  SurveyCheckOptions options;
+  DeliveryCheckOptions options;
   options.settings = quick();
-  const SurveyCheck of_files = checkSurvey(survey, strips().flight, options);
+  const DeliveryCheckResult of_files = checkDelivery(survey, strips().flight, options);
   const CheckedBlock& of_clouds = fromClouds();
   ASSERT_FALSE(of_clouds.pairs.empty());
   EXPECT_GT(of_clouds.pairs.front().assessment.vertical.rms, 0.0);
   expectEqual(of_files.block, of_clouds);
 }
 
-TEST(StripCheck, TakesAPointTypeOfOnesOwn) {
+TEST(DeliveryCheck, TakesAPointTypeOfOnesOwn) {
   expectEqual(checked<test::OwnPoint>(), fromClouds());  // without flags and scan angles
 }
 
-TEST(StripCheck, NeedsNeitherTimesNorATrajectory) {
-  StripCheck<pcl::PointXYZ> check;
+TEST(DeliveryCheck, NeedsNeitherTimesNorATrajectory) {
+  DeliveryCheck<pcl::PointXYZ> check;
   for (const test::SimulatedStrip& made : strips().strips) {
     pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
     for (const PointLidar& p : *made.strip.cloud)
@@ -126,8 +126,8 @@ TEST(StripCheck, NeedsNeitherTimesNorATrajectory) {
   EXPECT_NEAR(check.getResult().pairs.front().assessment.normal.rms, with_times, 0.3 * with_times);
 }
 
-TEST(StripCheck, RefusesWhatIsMissing) {
-  StripCheck<PointLidar> check;
+TEST(DeliveryCheck, RefusesWhatIsMissing) {
+  DeliveryCheck<PointLidar> check;
   EXPECT_THROW(check.check(), UsageError);
   EXPECT_THROW(check.getResult(), UsageError);
   EXPECT_THROW(check.addInputStrip(nullptr, LocalFrame(), "1"), UsageError);

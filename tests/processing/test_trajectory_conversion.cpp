@@ -86,12 +86,12 @@ struct Block {
   }
 
   PointChunk applied(bool strip_corrections) const {
-    FlightFileOptions reading = flightFileOptions(calibration);
+    TrajectoryLoadingOptions reading = trajectoryLoadingOptions(calibration);
     FileCorrectionOptions options;
     options.strip_corrections = strip_corrections;
     options.check_trajectory = false;
     correctPointFile(folder / "strip1.las", folder / "applied.las", calibration,
-                     readFlight(folder / "trajectory.csv", reading).trajectory, options);
+                     loadTrajectory(folder / "trajectory.csv", reading).trajectory, options);
     return points("applied.las");
   }
 
@@ -208,7 +208,8 @@ TEST(StripCorrections, AreRefusedForAStripThatHasNone) {
   options.strip_corrections = options.force = true;
   options.check_trajectory = false;
   const auto flight =
-      readFlight(block.folder / "trajectory.csv", flightFileOptions(block.calibration)).trajectory;
+      loadTrajectory(block.folder / "trajectory.csv", trajectoryLoadingOptions(block.calibration))
+          .trajectory;
   const FileCorrectionResult forced = correctPointFile(
       block.folder / "strip1.las", block.folder / "forced.las", block.calibration, flight, options);
   ASSERT_EQ(forced.warnings.size(), 1U);

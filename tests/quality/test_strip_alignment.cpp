@@ -33,7 +33,7 @@ TEST(StripAlignment, MovesAOntoB) {
     for (const LidarReturn& point : a) area.add(0, point);
     for (const LidarReturn& point : b) area.add(1, point);
   }
-  const PatchAlignmentResult found = alignStrips(areas, 0, 1, {});
+  const PatchAlignmentResult found = registerStrips(areas, 0, 1, {});
   ASSERT_TRUE(found.hasConverged()) << found.message;
   for (int i = 0; i < 3; ++i) {
     ASSERT_TRUE(found.parameters[static_cast<std::size_t>(i)].determined) << i;
@@ -47,11 +47,11 @@ TEST(StripAlignment, NothingInCommonIsAStatus) {
   std::vector<AreaOffsets> areas;
   areas.emplace_back(SurveyArea{kOrigin.head<2>(), 50.0, 5.0}, std::size_t{2});
   for (const LidarReturn& point : fly(village, {}, kOrigin)) areas[0].add(0, point);
-  EXPECT_FALSE(alignStrips(areas, 0, 1, {}).hasConverged());
+  EXPECT_FALSE(registerStrips(areas, 0, 1, {}).hasConverged());
   // Two sparse strips of 1900 m2 in common were said not to overlap.
-  EXPECT_NE(alignStrips(areas, 0, 1, {}).message.find("enough points of both strips"),
+  EXPECT_NE(registerStrips(areas, 0, 1, {}).message.find("enough points of both strips"),
             std::string::npos);
-  EXPECT_FALSE(alignStrips({}, 0, 1, {}).hasConverged());
+  EXPECT_FALSE(registerStrips({}, 0, 1, {}).hasConverged());
 }
 
 PairMotion motion(const std::string& a, const std::string& b, const Eigen::Vector3d& shift,

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/strip_assignment.h>
 
 #include "flown_points.h"
 #include "test_files.h"
@@ -25,9 +25,9 @@ std::vector<SurveyedFile> block(std::uint16_t a, std::uint16_t b, std::uint16_t 
 }
 
 /// Points of each label when every hundredth of a second has one of an id.
-std::vector<std::uint64_t> countLabels(const StripArrangement& arrangement, std::uint16_t id,
+std::vector<std::uint64_t> countLabels(const StripAssignment& arrangement, std::uint16_t id,
                                        double from, double to) {
-  StripArrangement::Sorter sorter(arrangement, 0);
+  StripAssignment::Assigner sorter(arrangement, 0);
   std::vector<std::uint64_t> counts(arrangement.labels().size(), 0);
   const auto steps = static_cast<int>(std::lround((to - from) / 0.01));
   for (int i = 0; i < steps; ++i) ++counts[sorter.label(id, from + 0.01 * i)];
@@ -43,25 +43,25 @@ const Trajectory& flight(double from, double to) {
       .first->second;
 }
 
-TEST(StripArrangement, ChoosesStripsByName) {
+TEST(StripAssignment, ChoosesStripsByName) {
   const auto files = block(1, 2, 3);
-  EXPECT_EQ(StripArrangement(files, {}, {}).names(), (Names{"1", "2", "3"}));
-  EXPECT_EQ(StripArrangement(files, {{"3", "1"}, {}}, {}).names(), (Names{"1", "3"}));
-  const StripArrangement without(files, {{}, {"2"}}, {});
+  EXPECT_EQ(StripAssignment(files, {}, {}).names(), (Names{"1", "2", "3"}));
+  EXPECT_EQ(StripAssignment(files, {{"3", "1"}, {}}, {}).names(), (Names{"1", "3"}));
+  const StripAssignment without(files, {{}, {"2"}}, {});
   EXPECT_EQ(without.names(), (Names{"1", "3"}));
-  const auto left = without.leftOut(countLabels(without, 2, 200.0, 208.0));
+  const auto left = without.excludedPoints(countLabels(without, 2, 200.0, 208.0));
   ASSERT_EQ(left.size(), 1U);
   EXPECT_EQ(left[0].strip, "2");
-  EXPECT_EQ(left[0].reason, LeftOutReason::excluded);
+  EXPECT_EQ(left[0].reason, ExclusionReason::excluded);
   EXPECT_EQ(left[0].points, 800U);
 }
 
-TEST(StripArrangement, DividesAStripThatIsCertainlySeveralLines) {
+TEST(StripAssignment, DividesAStripThatIsCertainlySeveralLines) {
   const auto files = block(4, 4, 4);
-  EXPECT_EQ(StripArrangement(files, {}, {}).names(), (Names{"4"}));
+  EXPECT_EQ(StripAssignment(files, {}, {}).names(), (Names{"4"}));
   StripChoice choice;
   choice.divide_lines = true;
-  const StripArrangement arrangement(files, choice, {});
+  const StripAssignment arrangement(files, choice, {});
   EXPECT_EQ(arrangement.names(), (Names{"4.1", "4.2", "4.3"}));
   ASSERT_EQ(arrangement.divisions().size(), 1U);
   EXPECT_EQ(arrangement.divisions()[0],
@@ -69,32 +69,32 @@ TEST(StripArrangement, DividesAStripThatIsCertainlySeveralLines) {
             "4.2, 4.3");
   // The number names all of its lines, that of a line only this one.
   choice.only = {"4"};
-  EXPECT_EQ(StripArrangement(files, choice, {}).names(), (Names{"4.1", "4.2", "4.3"}));
+  EXPECT_EQ(StripAssignment(files, choice, {}).names(), (Names{"4.1", "4.2", "4.3"}));
   choice.without = {"4.2"};
-  EXPECT_EQ(StripArrangement(files, choice, {}).names(), (Names{"4.1", "4.3"}));
+  EXPECT_EQ(StripAssignment(files, choice, {}).names(), (Names{"4.1", "4.3"}));
   // Strips with a line each are left as they are.
   choice = {};
   choice.divide_lines = true;
   const auto strips = block(1, 2, 3);
-  const StripArrangement single(strips, choice, {});
+  const StripAssignment single(strips, choice, {});
   EXPECT_EQ(single.names(), (Names{"1", "2", "3"}));
   EXPECT_TRUE(single.divisions().empty());
 }
 
-TEST(StripArrangement, StripsOfOnePassHaveTheSameTimes) {
+TEST(StripAssignment, StripsOfOnePassHaveTheSameTimes) {
   PointChunk chunk;
   test::scan(chunk, 1, test::straight({0.0, 0.0}, 0.0, 100.0), 100.0, 120.0);
   test::scan(chunk, 2, test::straight({0.0, 0.0}, 0.0, 100.0), 104.0, 116.0);
   test::scan(chunk, 3, test::straight({0.0, 1500.0}, 180.0, 119.0), 119.0, 140.0);
   const std::vector<SurveyedFile> files{test::surveyed("pass.las", chunk)};
-  const StripArrangement arrangement(files, {}, {});
+  const StripAssignment arrangement(files, {}, {});
   EXPECT_TRUE(arrangement.areOfOnePass(0, 1));
   EXPECT_TRUE(arrangement.areOfOnePass(1, 0));
   EXPECT_FALSE(arrangement.areOfOnePass(0, 2)) << "one second of twenty";
   EXPECT_FALSE(arrangement.areOfOnePass(1, 2));
 }
 
-TEST(StripArrangement, SplitsThroughTheEndOfAWeekAsAtOtherTimes) {
+TEST(StripAssignment, SplitsThroughTheEndOfAWeekAsAtOtherTimes) {
   PointChunk chunk;
   test::scan(chunk, 0, test::straight({0.0, 0.0}, 0.0, 604796.0), 604796.0, 604804.0);
   test::scan(chunk, 0, test::straight({100.0, 480.0}, 180.0, 604896.0), 604896.0, 604904.0);
@@ -102,43 +102,43 @@ TEST(StripArrangement, SplitsThroughTheEndOfAWeekAsAtOtherTimes) {
   const std::vector<SurveyedFile> files{test::surveyed("week.las", chunk)};
   StripChoice choice;
   choice.split = true;
-  const StripArrangement arrangement(files, choice, {});
+  const StripAssignment arrangement(files, choice, {});
   EXPECT_EQ(arrangement.names(), (Names{"line1", "line2"}));
-  StripArrangement::Sorter sorter(arrangement, 0);
+  StripAssignment::Assigner sorter(arrangement, 0);
   EXPECT_EQ(sorter.label(0, 604797.0), sorter.label(0, 3.0));
   EXPECT_NE(sorter.label(0, 3.0), sorter.label(0, 99.0));
 }
 
-TEST(StripArrangement, AnUnknownNameIsRefusedWithThoseThereAre) {
+TEST(StripAssignment, AnUnknownNameIsRefusedWithThoseThereAre) {
   const auto files = block(1, 2, 3);
   EXPECT_EQ(test::messageOf<UsageError>([&] {
-              StripArrangement(files, {{"7"}, {}}, {});
+              StripAssignment(files, {{"7"}, {}}, {});
             }),
             "option -strips: there is no strip '7'; there are 1, 2, 3");
   EXPECT_NE(test::messageOf<UsageError>([&] {
-              StripArrangement(files, {{}, {"a"}}, {});
+              StripAssignment(files, {{}, {"a"}}, {});
             }).find("-without: there is no strip 'a'"),
             std::string::npos);
 }
 
-TEST(StripArrangement, PointsOutsideTheTrajectoryAreLeftOutAndTheRestIsUsed) {
+TEST(StripAssignment, PointsOutsideTheTrajectoryAreLeftOutAndTheRestIsUsed) {
   const auto files = block(1, 2, 3);
   FlownTimes times;
   times.trajectory = &flight(100.5, 305.0);
-  const StripArrangement arrangement(files, {}, times);
+  const StripAssignment arrangement(files, {}, times);
   EXPECT_EQ(arrangement.names(), (Names{"1", "2", "3"}));
-  const auto first = arrangement.leftOut(countLabels(arrangement, 1, 100.0, 108.0));
+  const auto first = arrangement.excludedPoints(countLabels(arrangement, 1, 100.0, 108.0));
   ASSERT_EQ(first.size(), 1U);
-  EXPECT_EQ(first[0].reason, LeftOutReason::before_trajectory);
+  EXPECT_EQ(first[0].reason, ExclusionReason::before_trajectory);
   EXPECT_EQ(first[0].points, 50U);
   EXPECT_EQ(first[0].of, 800U);
-  const auto last = arrangement.leftOut(countLabels(arrangement, 3, 300.0, 308.0));
+  const auto last = arrangement.excludedPoints(countLabels(arrangement, 3, 300.0, 308.0));
   ASSERT_EQ(last.size(), 1U);
-  EXPECT_EQ(last[0].reason, LeftOutReason::after_trajectory);
+  EXPECT_EQ(last[0].reason, ExclusionReason::after_trajectory);
   EXPECT_NEAR(static_cast<double>(last[0].points), 300.0, 1.0);  // the sample at 305 s itself
 }
 
-TEST(StripArrangement, AGapOfTheTrajectoryCostsItsPointsOnly) {
+TEST(StripAssignment, AGapOfTheTrajectoryCostsItsPointsOnly) {
   const auto files = block(1, 2, 3);
   std::vector<TrajectorySample> samples;
   for (int i = 0; i <= 3000; ++i) {
@@ -153,71 +153,71 @@ TEST(StripArrangement, AGapOfTheTrajectoryCostsItsPointsOnly) {
   ASSERT_EQ(trajectory.gaps().size(), 1U);
   FlownTimes times;
   times.trajectory = &trajectory;
-  const StripArrangement arrangement(files, {}, times);
-  const auto left = arrangement.leftOut(countLabels(arrangement, 2, 200.0, 208.0));
+  const StripAssignment arrangement(files, {}, times);
+  const auto left = arrangement.excludedPoints(countLabels(arrangement, 2, 200.0, 208.0));
   ASSERT_EQ(left.size(), 1U);
-  EXPECT_EQ(left[0].reason, LeftOutReason::in_trajectory_gap);
+  EXPECT_EQ(left[0].reason, ExclusionReason::in_trajectory_gap);
   EXPECT_NEAR(static_cast<double>(left[0].points), 200.0, 12.0);  // between samples of 0.1 s
 }
 
-TEST(StripArrangement, AStripThatIsHardlyCoveredIsLeftOutByName) {
+TEST(StripAssignment, AStripThatIsHardlyCoveredIsLeftOutByName) {
   const auto files = block(1, 2, 3);
   FlownTimes times;
   times.trajectory = &flight(90.0, 300.3);
-  const StripArrangement arrangement(files, {}, times);
+  const StripAssignment arrangement(files, {}, times);
   EXPECT_EQ(arrangement.names(), (Names{"1", "2"}));
-  const auto left = arrangement.leftOut(countLabels(arrangement, 3, 300.0, 308.0));
+  const auto left = arrangement.excludedPoints(countLabels(arrangement, 3, 300.0, 308.0));
   ASSERT_EQ(left.size(), 1U);
-  EXPECT_EQ(left[0].reason, LeftOutReason::strip_uncovered);
+  EXPECT_EQ(left[0].reason, ExclusionReason::strip_uncovered);
   times.needed = false;
-  EXPECT_EQ(StripArrangement(files, {}, times).names(), (Names{"1", "2", "3"}));
+  EXPECT_EQ(StripAssignment(files, {}, times).names(), (Names{"1", "2", "3"}));
 }
 
-TEST(StripArrangement, PointsOfTimeZeroAreNoStripAmongOthers) {
+TEST(StripAssignment, PointsOfTimeZeroAreNoStripAmongOthers) {
   PointChunk chunk;
   test::scan(chunk, 5, test::straight({0.0, 0.0}, 0.0, 100.0), 100.0, 104.0);
   for (int i = 0; i < 20; ++i) test::addPoint(chunk, 0, 0.0, {10.0, 10.0});
   for (int i = 0; i < 30; ++i) test::addPoint(chunk, 5, 0.0, {10.0, 10.0});
   const std::vector<SurveyedFile> files{test::surveyed("tile.las", chunk)};
-  const StripArrangement arrangement(files, {}, {});
+  const StripAssignment arrangement(files, {}, {});
   EXPECT_EQ(arrangement.names(), Names{"5"});
-  StripArrangement::Sorter sorter(arrangement, 0);
-  EXPECT_EQ(arrangement.labels()[sorter.label(0, 0.0)].reason, LeftOutReason::zero_time);
+  StripAssignment::Assigner sorter(arrangement, 0);
+  EXPECT_EQ(arrangement.labels()[sorter.label(0, 0.0)].reason, ExclusionReason::zero_time);
   EXPECT_EQ(arrangement.labels()[sorter.label(5, 0.0)].index, -1);
   EXPECT_EQ(arrangement.labels()[sorter.label(5, 101.0)].index, 0);
 }
 
-TEST(StripArrangement, FilesWithoutAnyTimeAreStripsUnlessATrajectoryIsNeeded) {
+TEST(StripAssignment, FilesWithoutAnyTimeAreStripsUnlessATrajectoryIsNeeded) {
   PointChunk chunk;
   for (int i = 0; i < 20; ++i) test::addPoint(chunk, 4, 0.0, {10.0, 10.0});
   PointChunk other;
   test::scan(other, 5, test::straight({0.0, 0.0}, 0.0, 100.0), 100.0, 104.0);
   const std::vector<SurveyedFile> files{test::surveyed("a.las", chunk),
                                         test::surveyed("b.las", other)};
-  EXPECT_EQ(StripArrangement(files, {}, {}).names(), (Names{"4", "5"}));
+  EXPECT_EQ(StripAssignment(files, {}, {}).names(), (Names{"4", "5"}));
   FlownTimes times;
   times.trajectory = &flight(90.0, 110.0);
-  EXPECT_EQ(StripArrangement(files, {}, times).names(), Names{"5"});
+  EXPECT_EQ(StripAssignment(files, {}, times).names(), Names{"5"});
 }
 
-TEST(StripArrangement, SplitsPointsWithoutSourceIdIntoLines) {
+TEST(StripAssignment, SplitsPointsWithoutSourceIdIntoLines) {
   const auto files = block(0, 0, 0);
-  EXPECT_EQ(StripArrangement(files, {}, {}).names(), Names{"block"});
-  const StripArrangement arrangement(files, {{}, {}, true}, {});
+  EXPECT_EQ(StripAssignment(files, {}, {}).names(), Names{"block"});
+  const StripAssignment arrangement(files, {{}, {}, true}, {});
   EXPECT_EQ(arrangement.names(), (Names{"line1", "line2", "line3"}));
-  StripArrangement::Sorter sorter(arrangement, 0);
+  StripAssignment::Assigner sorter(arrangement, 0);
   EXPECT_EQ(arrangement.labels()[sorter.label(0, 107.9)].index, 0);
   EXPECT_EQ(arrangement.labels()[sorter.label(0, 200.0)].index, 1);
   EXPECT_EQ(arrangement.labels()[sorter.label(0, 104.0)].index, 0);  // out of order
-  EXPECT_EQ(StripArrangement(files, {{}, {"line2"}, true}, {}).names(), (Names{"line1", "line3"}));
+  EXPECT_EQ(StripAssignment(files, {{}, {"line2"}, true}, {}).names(), (Names{"line1", "line3"}));
 }
 
-TEST(StripArrangement, SplitPartsASourceIdOnlyWhereItHoldsSeveralLines) {
-  EXPECT_EQ(StripArrangement(block(7, 7, 8), {{}, {}, true}, {}).names(),
+TEST(StripAssignment, SplitPartsASourceIdOnlyWhereItHoldsSeveralLines) {
+  EXPECT_EQ(StripAssignment(block(7, 7, 8), {{}, {}, true}, {}).names(),
             (Names{"7.1", "7.2", "8"}));
 }
 
-TEST(StripArrangement, SplitDoesNotDependOnFiles) {
+TEST(StripAssignment, SplitDoesNotDependOnFiles) {
   PointChunk all;
   test::scan(all, 0, test::straight({0.0, 0.0}, 0.0, 100.0), 100.0, 108.0);
   test::scan(all, 0, test::straight({100.0, 480.0}, 180.0, 200.0), 200.0, 208.0);
@@ -226,7 +226,7 @@ TEST(StripArrangement, SplitDoesNotDependOnFiles) {
     test::addPoint(all.y[i] > 240.0 ? north : south, 0, all.gps_time[i], {all.x[i], all.y[i]});
   const std::vector<SurveyedFile> tiles{test::surveyed("n.las", north),
                                         test::surveyed("s.las", south)};
-  const StripArrangement arrangement(tiles, {{}, {}, true}, {});
+  const StripAssignment arrangement(tiles, {{}, {}, true}, {});
   EXPECT_EQ(arrangement.names(), (Names{"line1", "line2"}));
   EXPECT_EQ(arrangement.expectedPoints(), (std::vector<std::uint64_t>{16000, 16000}));
 }

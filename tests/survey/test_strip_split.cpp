@@ -115,7 +115,7 @@ TEST(StripSplit, ATurnIsAStretchOfItsOwn) {
   for (const Trajectory* known : {static_cast<const Trajectory*>(nullptr), &flight}) {
     const auto stretches = splitTrack(trackOf(chunk), known);
     ASSERT_EQ(stretches.size(), 3U);
-    EXPECT_EQ(stretches[1].left_out, LeftOutReason::in_turn);
+    EXPECT_EQ(stretches[1].excluded, ExclusionReason::in_turn);
     // Courses are means over 1 s (trajectory) or 4 s (swath), and are compared 4 s apart.
     EXPECT_NEAR(stretches[1].from, 120.0, 4.0);
     EXPECT_NEAR(stretches[1].to, 150.0, 4.0);
@@ -146,8 +146,8 @@ TEST(StripSplit, HoveringAndPassagesAreLeftOut) {
       const double certain = known == nullptr ? 4.0 : 1.0;
       EXPECT_NEAR(found[0].to, 129.5, certain);
       EXPECT_NEAR(found[1].from, 165.5, certain);
-      EXPECT_EQ(stretches[1].left_out, LeftOutReason::hovering);
-      EXPECT_EQ(stretches[2].left_out, LeftOutReason::in_turn) << "passage";
+      EXPECT_EQ(stretches[1].excluded, ExclusionReason::hovering);
+      EXPECT_EQ(stretches[2].excluded, ExclusionReason::in_turn) << "passage";
     }
   }
 }

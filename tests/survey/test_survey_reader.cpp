@@ -123,9 +123,9 @@ TEST(SurveyReader, CountsWhatItLeavesOut) {
   const SurveyReader::Contents contents = survey.measure();
   EXPECT_EQ(contents.points, (std::vector<std::uint64_t>{1000, 1000, 1000}));
   EXPECT_EQ(contents.pointCount(), 3000U);
-  ASSERT_EQ(contents.left_out.size(), 1U);
-  EXPECT_EQ(contents.left_out[0].strip, "2");
-  EXPECT_EQ(contents.left_out[0].points, 2000U);
+  ASSERT_EQ(contents.excluded.size(), 1U);
+  EXPECT_EQ(contents.excluded[0].strip, "2");
+  EXPECT_EQ(contents.excluded[0].points, 2000U);
   EXPECT_NEAR(contents.boxes[1].min().z(), 100.0, 1e-9);
   EXPECT_NEAR(contents.boxes[1].max().z(), 100.999, 1e-9);
   EXPECT_NEAR(contents.box().max().z(), 201.999, 1e-9);

@@ -180,8 +180,8 @@ TEST(SystemCorrection, RefusesPointsWithoutWhatItNeeds) {
     const SystemCorrection correction(calibration, flight);
     EXPECT_THROW(correction.change({&time, &x, &y, &z}, 1, columns, coverage), UsageError);
     const float intensity = 1000.0F;
-    const std::int8_t turning = 1;
-    correction.change({&time, &x, &y, &z, &intensity, &turning}, 1, columns, coverage);
+    const std::int8_t scan_direction = 1;
+    correction.change({&time, &x, &y, &z, &intensity, &scan_direction}, 1, columns, coverage);
     EXPECT_GT(change.norm(), 1e-4);
   }
 }

@@ -144,7 +144,7 @@ TEST(SystemCorrection, NeedsTheAttitudeOfAnotherFlight) {
   const CalibrationResult calibration = calibrated(AttitudeSource::points);
   EXPECT_THROW(SystemCorrection(calibration, curve(kLater)), InputError);
   SystemCorrection::Options options;
-  options.further_attitude.addPass({{kLater, {0.01, -0.02}}, {kLater + 60.0, {0.01, -0.02}}});
+  options.fallback_attitude.addPass({{kLater, {0.01, -0.02}}, {kLater + 60.0, {0.01, -0.02}}});
   const SystemCorrection correction(calibration, curve(kLater), options);
   EXPECT_TRUE(correction.knowsAttitude(kLater + 30.0));
   EXPECT_FALSE(correction.knowsAttitude(30.0));

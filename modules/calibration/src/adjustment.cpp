@@ -52,7 +52,7 @@ Adjustment::Adjustment(const Adjustment& whole, const std::vector<bool>& areas)
     some.slope_noise.push_back(whole.areas_->slope_noise[area]);
   }
   areas_ = std::make_shared<const Areas>(std::move(some));
-  setLevels(whole.levels_);
+  setVarianceFactors(whole.levels_);
 }
 
 void Adjustment::accumulate(const std::vector<AreaObservations>& areas,
@@ -66,7 +66,7 @@ void Adjustment::accumulate(const std::vector<AreaObservations>& areas,
   });
   for (auto& normal : normals) all.normals.push_back(std::move(*normal));
   areas_ = std::make_shared<const Areas>(std::move(all));
-  setLevels(levels_);
+  setVarianceFactors(levels_);
 }
 
 std::unique_ptr<const ErrorNormal> Adjustment::assemble(double shift_variance) const {
@@ -83,7 +83,7 @@ std::unique_ptr<const ErrorNormal> Adjustment::assemble(double shift_variance) c
   return normal;
 }
 
-void Adjustment::setLevels(const SharedErrorLevels& levels) {
+void Adjustment::setVarianceFactors(const VarianceFactors& levels) {
   levels_ = levels;
   if (areas_->normals.empty()) return;
   normal_ = assemble(errors_.localVariance(levels_));
@@ -91,7 +91,7 @@ void Adjustment::setLevels(const SharedErrorLevels& levels) {
 }
 
 Adjustment::Reduced Adjustment::reduce(const ErrorNormal& normal,
-                                       const SharedErrorLevels& levels) const {
+                                       const VarianceFactors& levels) const {
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels);
   const BlockCholesky factor(normal.tt, prior);
   Reduced reduced;

@@ -37,9 +37,9 @@ struct ErrorNormal;  // their sum
 class StripCovariance;
 
 /// Restricted likelihood of variance components, with its derivatives with respect to their
-/// logarithms, in the order of SharedErrorLevels::values().
+/// logarithms, in the order of VarianceFactors::values().
 struct RestrictedLikelihood {
-  static constexpr int kCount = SharedErrorLevels::kCount;
+  static constexpr int kCount = VarianceFactors::kCount;
   /// -2 ln of the likelihood, without a constant; infinite where the parameters cannot be solved
   /// for, and then there are no derivatives.
   double deviance = std::numeric_limits<double>::infinity();
@@ -83,10 +83,11 @@ class Adjustment {
   /// \param weights one for every observation of every area: robust weight / noise scale^2
   void accumulate(const std::vector<AreaObservations>& areas,
                   const std::vector<std::vector<double>>& weights);
-  void setLevels(const SharedErrorLevels& levels);
-  const SharedErrorLevels& levels() const { return levels_; }
+  void setVarianceFactors(const VarianceFactors& levels);
+  const VarianceFactors& levels() const { return levels_; }
   /// The same unknowns with other priors, or other error sources considered. Solutions are those of
-  /// the new ones after the next setLevels() or accumulate(), restrictedLikelihood() at once.
+  /// the new ones after the next setVarianceFactors() or accumulate(), restrictedLikelihood() at
+  /// once.
   void setErrors(const SharedErrors& errors) { errors_ = errors; }
   const SharedErrors& errors() const { return errors_; }
 
@@ -95,7 +96,7 @@ class Adjustment {
   /// the prior or an area couple unknowns: the cost of about three solutions.
   /// \param differentiated_below derivatives are computed of a smaller deviance only
   RestrictedLikelihood restrictedLikelihood(
-      const SharedErrorLevels& levels, const std::vector<SystemParameter>& estimate,
+      const VarianceFactors& levels, const std::vector<SystemParameter>& estimate,
       double differentiated_below = std::numeric_limits<double>::infinity()) const;
 
   /// Solves for the parameters in \a estimate; the others are held at their values in \a held.
@@ -160,7 +161,7 @@ class Adjustment {
   struct Areas;    // normal equations of the areas
 
   std::unique_ptr<const ErrorNormal> assemble(double shift_variance) const;
-  Reduced reduce(const ErrorNormal& normal, const SharedErrorLevels& levels) const;
+  Reduced reduce(const ErrorNormal& normal, const VarianceFactors& levels) const;
   /// Contribution of one area to the reduced equations at a solution.
   struct Share {
     SystemVector score;
@@ -204,7 +205,7 @@ class Adjustment {
 
   SharedErrors errors_;
   int threads_;
-  SharedErrorLevels levels_;
+  VarianceFactors levels_;
   std::shared_ptr<const Areas> areas_;
   std::shared_ptr<const ErrorNormal> normal_;
   std::shared_ptr<const Reduced> reduced_;
@@ -212,10 +213,10 @@ class Adjustment {
 
 /// Variance components estimated from the observations.
 struct EstimatedLevels {
-  SharedErrorLevels most_likely;  ///< where a further estimation begins
+  VarianceFactors most_likely;  ///< where a further estimation begins
   /// The expectation of each variance for a normal distribution of its logarithm about the most
   /// likely one. Those of the adjustment.
-  SharedErrorLevels expected;
+  VarianceFactors expected;
 };
 
 /** \brief Estimates the variance components of the shared errors by restricted maximum likelihood
@@ -233,6 +234,6 @@ struct EstimatedLevels {
  * less (a standard deviation changes it by one)
  */
 EstimatedLevels estimateLevels(Adjustment& adjustment, const std::vector<SystemParameter>& estimate,
-                               const SharedErrorLevels& start = {}, double tolerance = 0.01);
+                               const VarianceFactors& start = {}, double tolerance = 0.01);
 
 }  // namespace pcl_als

@@ -41,10 +41,10 @@ std::size_t classOf(const PairRow& row, double largest_angle) {
 /// At most so many pairs, with the parts of the strips.
 WeightedObservations divided(const WeightedObservations& all, const FieldDivision& division,
                              double largest_angle) {
-  constexpr std::size_t kMost = 200'000;
+  constexpr std::size_t kSampledPairs = 200'000;
   std::size_t count = 0;
   for (const AreaObservations& area : all.observations) count += area.size();
-  const std::size_t every = 1 + count / kMost;
+  const std::size_t every = 1 + count / kSampledPairs;
   WeightedObservations parts;
   parts.observations.resize(all.observations.size());
   parts.weights.resize(all.observations.size());
@@ -74,7 +74,7 @@ class CurveAdjustment {
         estimate_(block.estimate) {
     errors_.considerSources(considered);
     adjustment_.setErrors(errors_);
-    adjustment_.setLevels(block.levels);
+    adjustment_.setVarianceFactors(block.levels);
     adjustment_.accumulate(parts.observations, parts.weights);
     // Its effect is a linear curve.
     if (std::find(estimate_.begin(), estimate_.end(), SystemParameter::scan_angle_scale) !=
@@ -104,7 +104,7 @@ class CurveAdjustment {
   };
   Rolls rolls(double arcsec) {
     setSize(arcsec);
-    adjustment_.setLevels(adjustment_.levels());
+    adjustment_.setVarianceFactors(adjustment_.levels());
     Rolls rolls;
     const AdjustmentSolution solution = adjustment_.solve(estimate_, SystemVector::Zero());
     if (!solution.solved) return rolls;
@@ -164,7 +164,7 @@ AngleCurve angleCurve(const AdjustedBlock& block, const WeightedObservations& ob
   finding.source = AngleCurve::kSource;
   finding.title = "error of the scan angle that is another function of it";
   finding.unit = "arcsec";
-  finding.remedy =
+  finding.hint =
       "have the angle encoder calibrated by the manufacturer; scan_angle_curve of the result has "
       "the errors by scan angle";
   const FieldDivision division = classesOfAngle();
@@ -217,12 +217,12 @@ void judgeAngleCurve(AngleCurve curve, double relevant, CalibrationResult& resul
         "%s: the scan angle has an error of %.3g +- %.2g arcsec (RMS) that depends on the "
         "scan angle in another way than by its scale",
         f.source.c_str(), f.value, f.std);
-    result.warnings.emplace_back(std::string(text) + "; " + f.remedy);
+    result.warnings.emplace_back(std::string(text) + "; " + f.hint);
     if (f.effect > relevant)
-      result.verdict.object(CalibrationStatus::parameters_affected,
-                            std::string(text) +
-                                ", by which parameters and corrections of the "
-                                "trajectory are wrong");
+      result.verdict.downgrade(CalibrationStatus::parameters_affected,
+                               std::string(text) +
+                                   ", by which parameters and corrections of the "
+                                   "trajectory are wrong");
     result.scan_angle_curve = std::move(curve.errors);
   }
   result.diagnosis.push_back(std::move(curve.finding));

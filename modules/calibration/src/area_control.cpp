@@ -28,14 +28,15 @@ void shareControlError(const ControlPoint& point, std::size_t first, AreaObserva
     PairObservation& o = found[i];
     const Eigen::Vector3d own = errorEffect(o);
     if (!o.isInPlan()) {
-      o.sharing =
+      o.variance_inflation =
           static_cast<float>(1.0 + own.dot(sum - own) * point.sigma * point.sigma / o.variance);
       continue;
     }
     double others = 0.0;  // the axes of strips differ
     for (std::size_t k = first; k < found.size(); ++k)
       if (k != i && found[k].isInPlan()) others += std::abs(own.dot(errorEffect(found[k])));
-    o.sharing = static_cast<float>(1.0 + others * std::pow(point.sigmaInPlan(), 2) / o.variance);
+    o.variance_inflation =
+        static_cast<float>(1.0 + others * std::pow(point.sigmaInPlan(), 2) / o.variance);
   }
 }
 
@@ -99,7 +100,7 @@ PairObservation AreaMatcher::controlObservation(const ControlPoint& point, const
                                                 const PointGeometry& foot) const {
   PairObservation o;
   o.b = part.strip;
-  o.look_b = part.look;
+  o.half_b = part.half;
   if (point.kind == ControlPoint::Kind::patch)
     o.control_error = PairObservation::ControlError::along_normal;
   o.time_a = o.time_b = foot.time;

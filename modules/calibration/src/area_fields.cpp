@@ -58,7 +58,8 @@ std::vector<int> AreaMatcher::StripPart::values(PointField field,
                                                 const Trajectory& trajectory) const {
   if (field == PointField::scanner_channel) return {channel.begin(), channel.end()};
   if (field == PointField::user_data) return {user_data.begin(), user_data.end()};
-  const bool recorded = std::any_of(turning.begin(), turning.end(), [](int v) { return v != 0; });
+  const bool recorded =
+      std::any_of(scan_direction.begin(), scan_direction.end(), [](int v) { return v != 0; });
   return recorded ? std::vector<int>(times.size(), 0) : scanDirections(times, biased, trajectory);
 }
 

@@ -25,7 +25,7 @@ void AreaMatcher::add(int strip, const LidarReturn& point) {
   part.times.push_back(point.time);
   part.single.push_back(point.isSingle());
   part.intensity.push_back(point.intensity);
-  part.turning.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
+  part.scan_direction.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
   part.channel.push_back(point.channel);
   part.user_data.push_back(point.user_data);
 }
@@ -34,7 +34,7 @@ void AreaMatcher::put(int strip, ByteWriter& out) const {
   const StripPart& part = surfaces_[static_cast<std::size_t>(strip)];
   out.putPlain(part.biased).put(part.times);
   out.put(std::vector<char>(part.single.begin(), part.single.end()));
-  out.put(part.intensity).put(part.turning).put(part.channel).put(part.user_data);
+  out.put(part.intensity).put(part.scan_direction).put(part.channel).put(part.user_data);
 }
 
 void AreaMatcher::get(int strip, ByteReader& in) {
@@ -42,7 +42,7 @@ void AreaMatcher::get(int strip, ByteReader& in) {
   in.getPlain(part.biased).get(part.times);
   const auto single = in.take<std::vector<char>>();
   part.single.assign(single.begin(), single.end());
-  in.get(part.intensity).get(part.turning).get(part.channel).get(part.user_data);
+  in.get(part.intensity).get(part.scan_direction).get(part.channel).get(part.user_data);
 }
 
 void AreaMatcher::clear() {
@@ -59,7 +59,7 @@ std::size_t AreaMatcher::pointCount() const {
 std::size_t AreaMatcher::stripCount() const {
   return static_cast<std::size_t>(std::count_if(
       surfaces_.begin(), surfaces_.end(),
-      [](const StripPart& part) { return !part.biased.empty() && part.look != Look::back; }));
+      [](const StripPart& part) { return !part.biased.empty() && part.half != ScanHalf::aft; }));
 }
 
 std::vector<TimeSpan> AreaMatcher::timesOf(int strip) const {
@@ -82,9 +82,9 @@ void AreaMatcher::prepare(const SurfaceCriterion& criterion, std::size_t candida
   criterion_ = criterion;
   for (StripPart& part : surfaces_) {
     // A polygon turns one way, and many files do not say which: a constant sign says nothing.
-    const auto constant = [&](std::int8_t sign) { return sign == part.turning.front(); };
-    if (std::all_of(part.turning.begin(), part.turning.end(), constant))
-      std::fill(part.turning.begin(), part.turning.end(), std::int8_t{0});
+    const auto constant = [&](std::int8_t sign) { return sign == part.scan_direction.front(); };
+    if (std::all_of(part.scan_direction.begin(), part.scan_direction.end(), constant))
+      std::fill(part.scan_direction.begin(), part.scan_direction.end(), std::int8_t{0});
   }
   buildSurfaces(candidates, resolution, trajectory);
 }
@@ -99,7 +99,7 @@ void AreaMatcher::buildSurfaces(std::size_t candidates, double resolution,
       continue;
     }
     buildSurface(part, resolution);
-    if (!divideByLook(strip, resolution, trajectory)) {
+    if (!divideByScanHalf(strip, resolution, trajectory)) {
       chooseCandidates(part, candidates);
       continue;
     }
@@ -181,7 +181,7 @@ void AreaMatcher::keep(const AreaObservations& observations,
     const PairObservation& o = observations[pair.index];
     if (o.a != PairObservation::kControl)
       kept_[{o.surfaceA(), o.surfaceB()}].push_back(
-          {o.point, static_cast<float>(o.sharing / pair.represented),
+          {o.point, static_cast<float>(o.variance_inflation / pair.represented),
            static_cast<float>(pair.offset)});
   }
 }
@@ -215,9 +215,9 @@ void AreaMatcher::removeSourceEffects(const StripPart& part, const Trajectory& t
   std::size_t cursor = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!trajectory.poseAt(part.times[i], pose, cursor)) continue;
-    points[i] -=
-        effect.displacement({part.times[i], part.intensity[i], static_cast<float>(part.turning[i])},
-                            pose, points[i], scale, corrected_sources_);
+    points[i] -= effect.displacement(
+        {part.times[i], part.intensity[i], static_cast<float>(part.scan_direction[i])}, pose,
+        points[i], scale, corrected_sources_);
   }
 }
 
@@ -243,12 +243,12 @@ void AreaMatcher::keepSpecial(const PointGeometry* point, const PointGeometry& f
   observation.special.reset();
   if (!foot.mixed && !turned) return;
   const auto along = [&](const Eigen::Matrix3d& turn) {
-    return PairTurn((observation.normal.transpose() * turn).cast<float>());
+    return BoresightPartials((observation.normal.transpose() * turn).cast<float>());
   };
   PairObservation::Special special;
   if (turned) {
-    special.turn_a = along(point->turn);
-    special.turn_b = along(foot.turn);
+    special.boresight_a = along(point->turn);
+    special.boresight_b = along(foot.turn);
   }
   special.mixed_times = foot.mixed;
   for (std::size_t i = 0; i < foot.vertices.size() && foot.mixed; ++i) {
@@ -332,8 +332,8 @@ void AreaMatcher::matchSurfaces(Matching& matching, std::size_t a, std::size_t b
                                 PairsByDistance& found) const {
   const StripPart &from = surfaces_[a], &to = surfaces_[b];
   PairObservation observation;
-  observation.a = from.strip, observation.look_a = from.look;
-  observation.b = to.strip, observation.look_b = to.look;
+  observation.a = from.strip, observation.half_a = from.half;
+  observation.b = to.strip, observation.half_b = to.half;
   const bool all = matching.chosen == Points::candidates;
   const auto kept = kept_.find({observation.surfaceA(), observation.surfaceB()});
   if (!all && kept == kept_.end()) return;
@@ -359,7 +359,7 @@ void AreaMatcher::matchSurfaces(Matching& matching, std::size_t a, std::size_t b
                         normalVariance(matching.point.covariance, observation.normal),
                         normalVariance(matching.vertex.covariance, observation.normal));
     if (!all) {
-      observation.sharing = kept->second[c].sharing;
+      observation.variance_inflation = kept->second[c].variance_inflation;
       observation.offset = kept->second[c].offset;
       observation.misclosure += observation.offset;
     }

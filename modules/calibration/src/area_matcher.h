@@ -99,7 +99,7 @@ class AreaMatcher {
    * Where a strip measures the same ground twice within seconds (conical scanners; several planes
    * whose channels are not recorded), the points ahead of the sensor and those behind it form
    * surfaces of their own, which also form pairs with each other. Triangles with vertices of both
-   * looks would have trajectory errors of two times, which differ by centimetres and are the same
+   * halves would have trajectory errors of two times, which differ by centimetres and are the same
    * for all pairs of the area, and biases of two directions of the pulse.
    */
   void prepare(const SurfaceCriterion& criterion, std::size_t candidates, double resolution,
@@ -134,8 +134,8 @@ class AreaMatcher {
   /// these pairs have the weight of those that they represent.
   void keep(const AreaObservations& observations, const std::vector<ChosenPair>& chosen);
 
-  /// The TIN of a strip (or of its look ahead), as corrected last; empty where the strip has too
-  /// few points in the area.
+  /// The TIN of a strip (or of its fore half-scan), as corrected last; empty where the strip has
+  /// too few points in the area.
   const PatchSurface& surfaceOf(int strip) const {
     return surfaces_[static_cast<std::size_t>(strip)].surface;
   }
@@ -184,19 +184,19 @@ class AreaMatcher {
                                        const Trajectory& trajectory, const NoiseModel& noise) const;
 
  private:
-  /// Fewer points of a strip or a look in the area and its margin form no surface.
+  /// Fewer points of a strip or a half-scan in the area and its margin form no surface.
   static constexpr std::size_t kTooFew = 30;
   static constexpr std::size_t kEnoughForEdge = 5000;  ///< triangles, for the typical edge
 
-  /// The points of a strip, or those of one look, and their TIN.
+  /// The points of a strip, or those of one half-scan, and their TIN.
   struct StripPart {
     int strip = 0;
-    Look look = Look::whole;
+    ScanHalf half = ScanHalf::whole;
     std::vector<Eigen::Vector3d> biased;  ///< ground frame, as read
     std::vector<double> times;
     std::vector<bool> single;
     std::vector<float> intensity;
-    std::vector<std::int8_t> turning;  ///< of the mirror: 1 to the left, -1 to the right
+    std::vector<std::int8_t> scan_direction;  ///< of the mirror: 1 to the left, -1 to the right
     std::vector<std::uint8_t> channel, user_data;
     PatchSurface surface;
     GroundPlanes ground;  ///< of the points as corrected last
@@ -228,10 +228,10 @@ class AreaMatcher {
                            std::vector<Eigen::Vector3d>& points) const;
   void buildSurface(StripPart& part, double resolution) const;
   void buildSurfaces(std::size_t candidates, double resolution, const Trajectory& trajectory);
-  /// Divides the points of a strip by look where that separates times which its TIN mixes.
-  bool divideByLook(std::size_t strip, double resolution, const Trajectory& trajectory);
-  /// The surfaces of the point and of the patch, one entry for each direction: of all looks of
-  /// these strips, and of the two looks of each strip.
+  /// Divides the points of a strip by half-scan where that separates times which its TIN mixes.
+  bool divideByScanHalf(std::size_t strip, double resolution, const Trajectory& trajectory);
+  /// The surfaces of the point and of the patch, one entry for each direction: of all halves of
+  /// these strips, and of the two half-scans of each strip.
   std::vector<std::pair<std::size_t, std::size_t>> surfacePairs(
       const std::vector<StripPair>& pairs) const;
   /// The criterion of a strip's patches: that of the block, or of the points of a surface that are
@@ -283,11 +283,11 @@ class AreaMatcher {
   void chooseCandidates(StripPart& part, std::size_t count) const;
 
   SurveyArea area_;
-  /// By strip; looks back at the end.
+  /// By strip; aft half-scans at the end.
   std::vector<StripPart> surfaces_;
   struct KeptPoint {
     std::int32_t point = 0;
-    float sharing = 1.0F, offset = 0.0F;  ///< of its pair, see ChosenPair
+    float variance_inflation = 1.0F, offset = 0.0F;  ///< of its pair, see ChosenPair
   };
   /// Points of the first surface that form pairs with the second, PairObservation::surfaceIndex().
   std::map<std::pair<int, int>, std::vector<KeptPoint>> kept_;

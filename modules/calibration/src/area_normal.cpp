@@ -32,7 +32,8 @@ struct Side {
         sign(number == 0 ? 1.0 : -1.0),
         design((number == 0 ? o.row_a : o.row_b).cast<double>()),
         attitude(design.segment<3>(indexOf(SystemParameter::boresight_pitch))) {
-    if (o.special) attitude += (number == 0 ? o.special->turn_a : o.special->turn_b).cast<double>();
+    if (o.special)
+      attitude += (number == 0 ? o.special->boresight_a : o.special->boresight_b).cast<double>();
   }
 };
 

@@ -45,11 +45,11 @@ class PointRandom {
 }  // namespace
 
 std::vector<Eigen::Vector3d> AreaMatcher::steps() const {
-  constexpr std::size_t kEnough = 5000;  // points of an area
+  constexpr std::size_t kSampledPoints = 5000;  // points of an area
   std::vector<Eigen::Vector3d> steps(corrected_for_.size(), Eigen::Vector3d::Zero());
   for (std::size_t strip = 0; strip < steps.size(); ++strip) {
     const StripPart& part = surfaces_[strip];
-    const auto count = static_cast<std::ptrdiff_t>(std::min(kEnough, part.biased.size()));
+    const auto count = static_cast<std::ptrdiff_t>(std::min(kSampledPoints, part.biased.size()));
     if (!part.held())
       steps[strip] = coordinateSteps({part.biased.begin(), part.biased.begin() + count});
   }

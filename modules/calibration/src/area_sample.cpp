@@ -20,8 +20,9 @@ constexpr double kRoughnessFactor = 3.0;
 AreaMatcher matcherOf(const SurveyArea& area, const BlockStrips& strips) {
   AreaMatcher matcher(area, strips.size());
   for (std::size_t i = 0; i < strips.size(); ++i) {
-    if (strips.held_of[i] < 0) continue;
-    const BlockStrips::Held& held = strips.held[static_cast<std::size_t>(strips.held_of[i])];
+    if (strips.fixed_surface_of[i] < 0) continue;
+    const BlockStrips::Held& held =
+        strips.held[static_cast<std::size_t>(strips.fixed_surface_of[i])];
     matcher.hold(static_cast<int>(i), held.surface.std, !held.is_reference);
   }
   return matcher;
@@ -122,14 +123,14 @@ AreaSample::Candidates AreaSample::candidates() const {
   const auto counts = collect<std::size_t>([&](std::size_t area, std::vector<std::size_t>& count) {
     count.push_back(matchers_[area].stripCount());
   });
-  // Looks that are divided form pairs with both looks of the others.
-  const std::size_t looks =
+  // Strips that are divided form pairs of each half-scan with both half-scans of the others.
+  const std::size_t halves =
       block_.scanner.conical || !block_.trajectory().scanPlanes().empty() ? 2 : 1;
   std::size_t strips = 1, pairs = 0;
   for (std::size_t area = 0; area < block_.pairAreas(); ++area) {
     const std::size_t count = counts[area].front();
     strips += count;
-    if (count > 0) pairs += count * (looks * count - 1);
+    if (count > 0) pairs += count * (halves * count - 1);
   }
   const std::size_t per_strip = candidatesPerStrip(block_.settings().candidates, strips, pairs);
   return {per_strip, per_strip * pairs};

@@ -127,7 +127,7 @@ std::vector<TargetInStrip> AreaMatcher::targetsIn(const ControlPoint& point, dou
     if (known == found.end())
       found.push_back({part.strip, status});
     else if (status == TargetStatus::located)
-      known->status = status;  // one of two looks suffices
+      known->status = status;  // one of two half-scans suffices
   }
   return found;
 }

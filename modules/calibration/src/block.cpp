@@ -48,7 +48,7 @@ std::string checkControl(const BlockStrips& strips, const SurveyMap& map,
                          const BlockRequest& request, Warnings& warnings) {
   const ControlCoverage coverage = coverageOf(request.control, map, strips.flown());
   if (coverage.objection.empty()) return coverage.remark;
-  if (!request.settings.force) throw InputError(coverage.objection, Remedy::force);
+  if (!request.settings.force) throw InputError(coverage.objection, Hint::force);
   warnings.push_back(coverage.objection);
   return coverage.remark;
 }
@@ -91,7 +91,7 @@ SurveyBlock chooseAreas(BlockIndex&& given, const BlockRequest& request) {
   settings.limits = settings.limits.atHeight(highest(block.surveyed));
   StripSelection selection = selectStrips(block.strips, index, block.request);
   block.strips = std::move(selection.strips);
-  block.left_out = std::move(selection.left_out);
+  block.excluded = std::move(selection.excluded);
   block.warnings = std::move(selection.warnings);
   checkTimes(block.strips, index);
   const HeightError height_error =

@@ -32,9 +32,9 @@ struct BlockStrips {
     bool is_reference = false;
   };
 
-  std::vector<std::string> ids;  ///< of strips, and names of reference surfaces
-  std::vector<bool> used;        ///< false: left out
-  std::vector<int> held_of;      ///< index in held; -1: the strip is not held fixed
+  std::vector<std::string> ids;       ///< of strips, and names of reference surfaces
+  std::vector<bool> used;             ///< false: left out
+  std::vector<int> fixed_surface_of;  ///< index in held; -1: the strip is not held fixed
   std::vector<Held> held;
 
   std::size_t size() const { return ids.size(); }
@@ -43,9 +43,9 @@ struct BlockStrips {
   /// UsageError for a standard deviation that is not positive, or a name of a strip.
   int addReference(const ReferenceSurface& surface);
 
-  bool isHeld(int strip) const { return held_of[static_cast<std::size_t>(strip)] >= 0; }
-  bool isHeld(const PairObservation& o) const {
-    return o.a != PairObservation::kControl && (isHeld(o.a) || isHeld(o.b));
+  bool isFixed(int strip) const { return fixed_surface_of[static_cast<std::size_t>(strip)] >= 0; }
+  bool isFixed(const PairObservation& o) const {
+    return o.a != PairObservation::kControl && (isFixed(o.a) || isFixed(o.b));
   }
   bool isReference(int strip) const;
   /// Whether a strip is used and was flown.
@@ -124,7 +124,7 @@ struct BlockRequest {
 };
 
 /// The trajectory that is used, and where its attitude is from.
-struct BlockFlight {
+struct BlockTrajectory {
   std::shared_ptr<const Trajectory> trajectory;
   AttitudeSource attitude = AttitudeSource::none;
   RecoveredAttitude recovered;
@@ -154,13 +154,13 @@ struct SurveyBlock {
   std::vector<SurveyedStrip> surveyed;  ///< by strip
   StripSystems systems;
   std::vector<StripGroup> compared;  ///< sessions and channels, where no systems are given
-  BlockFlight flight;
+  BlockTrajectory flight;
   BlockScanner scanner;
   std::vector<StripPair> pairs;
   std::vector<SurveyMap::HeightOffset> pair_heights;  ///< by pair
   std::vector<SurveyArea> areas;  ///< those of pairs, then one for each control point
   std::string control_remark;     ///< why no strip covers control; empty: unknown
-  std::vector<LeftOutPoints> left_out;
+  std::vector<ExcludedPoints> excluded;
   Warnings warnings;
 
   const CalibrationSettings& settings() const { return request.settings; }

@@ -92,17 +92,17 @@ SystemVector groundEffect(const ObservedBlock& block, const BlockFacts& facts) {
 namespace {
 
 /// Standard deviation of a point below the sensor by the errors of the trajectory, metres.
-double trajectoryEffect(const SharedErrorModel& model, const SharedErrorLevels& levels,
+double trajectoryEffect(const SharedErrorModel& model, const VarianceFactors& levels,
                         const BlockFacts& facts) {
-  const auto scale = [&](double SharedErrorLevels::Trajectory::*level) {
+  const auto scale = [&](double VarianceFactors::Trajectory::*level) {
     return model.constant_share * levels.constant.*level +
            model.smooth_share * levels.smooth.*level +
            (1.0 - model.constant_share - model.smooth_share) * levels.gauss_markov.*level;
   };
   const double height = facts.heights.empty() ? 0.0 : facts.heights.back();
-  return std::sqrt(
-      model.position * model.position * scale(&SharedErrorLevels::Trajectory::position) +
-      std::pow(height * model.roll_pitch, 2) * scale(&SharedErrorLevels::Trajectory::roll_pitch));
+  return std::sqrt(model.position * model.position * scale(&VarianceFactors::Trajectory::position) +
+                   std::pow(height * model.roll_pitch, 2) *
+                       scale(&VarianceFactors::Trajectory::roll_pitch));
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ BlockAdjustment::BlockAdjustment(const ObservedBlock& block, const Observability
     : errors_(block.spans, settings.shared_errors,
               observedTimes(block.observations, block.spans.size())),
       adjustment_(errors_, settings.threads) {
-  adjustment_.setLevels(settings.levels);
+  adjustment_.setVarianceFactors(settings.levels);
   adjustment_.accumulate(block.observations, block.weights);
   const bool automatic = settings.estimate.empty();
   wanted_ = automatic ? automaticParameters(true, settings.shared_errors) : settings.estimate;
@@ -228,7 +228,7 @@ ObservabilityReport describeObservability(const ObservedBlock& block,
 namespace {
 
 /// A flown strip as a straight line; without a length where it has no pairs.
-StripGeometry straight(const FlownStrip& flown, const Trajectory& trajectory) {
+StripGeometry straight(const StripTrajectory& flown, const Trajectory& trajectory) {
   StripGeometry strip;
   strip.id = flown.id;
   strip.first_time = flown.span.first;
@@ -259,7 +259,7 @@ StripGeometry straight(const FlownStrip& flown, const Trajectory& trajectory) {
 
 ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& trajectory) {
   ObservedBlock block;
-  for (const FlownStrip& strip : survey.strips) {
+  for (const StripTrajectory& strip : survey.strips) {
     block.spans.push_back(strip.span);
     block.strips.push_back(straight(strip, trajectory));
   }
@@ -282,7 +282,7 @@ std::string controlText(const CalibrationResult& result) {
     if (fit.isInPlan()) targets.insert(fit.id);
   for (const ControlPointFit& fit : result.control_points)
     if (targets.count(fit.id) == 0) ++(fit.component == "normal" ? patches : points);
-  for (const HeldSurface& surface : result.held) {
+  for (const FixedSurface& surface : result.held) {
     strips += surface.strips.size();
     if (surface.strips.empty()) ++surfaces;
   }

@@ -21,7 +21,7 @@ struct ObservabilitySettings {
   DeterminationLimits limits;
   SharedErrorModel shared_errors;
   /// variance components of the shared errors, as estimated from the data
-  SharedErrorLevels levels;
+  VarianceFactors levels;
   /// For the pairs of virtual lines: noise and points per area. The surface is that of the block's
   /// own pairs unless \a planned is set.
   SyntheticPairs::Settings pairs;

@@ -25,7 +25,7 @@ namespace {
 
 /// Sets the height and the swath of the strips from the patches of their pairs.
 void measureStrips(const std::vector<AreaObservations>& observations,
-                   std::vector<FlownStrip>& strips) {
+                   std::vector<StripTrajectory>& strips) {
   std::vector<std::vector<double>> heights(strips.size());
   for (const AreaObservations& area : observations) {
     for (const PairObservation& o : area) {
@@ -45,7 +45,7 @@ AdjustedSurvey adjustedSurvey(const SurveyBlock& block, const BlockSolution& sol
   AdjustedSurvey adjusted;
   const std::vector<TimeSpan> spans = block.flownTimes();
   for (std::size_t i = 0; i < block.strips.size(); ++i) {
-    const bool held = block.strips.isHeld(static_cast<int>(i));
+    const bool held = block.strips.isFixed(static_cast<int>(i));
     adjusted.strips.push_back(
         {block.strips.ids[i], held ? TimeSpan(0.0, 0.0) : spans[i], block.surveyed[i].points});
   }
@@ -114,7 +114,7 @@ void describeSolution(const SurveyBlock& block, const BlockEstimate& estimate,
   result.iterations = estimate.control.iterations();
   result.sigma0 = solution.weights.sigma0();
   result.redundancy = solution.redundancy();
-  result.left_out = block.left_out;
+  result.excluded = block.excluded;
   result.attitude = block.flight.attitude;
   result.recovered_attitude = block.flight.recovered;
   result.scan_planes = block.trajectory().scanPlanes();
@@ -144,7 +144,7 @@ void setStatedEffects(const BlockSolution& solution, const ErrorSourceVector& he
   const ErrorSourceVector sources = result.sources - held_sources;
   for (AreaObservations& area : observations) {
     for (PairObservation& o : area)
-      o.further = static_cast<float>(effectOfSystems(systems, stated, o));
+      o.other_effects = static_cast<float>(effectOfSystems(systems, stated, o));
     addSourceEffects(sources, area);
   }
 }

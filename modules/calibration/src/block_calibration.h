@@ -103,7 +103,7 @@ class AreaSample {
 std::vector<std::vector<TimeSpan>> measuredTimes(const AreaSample& sample);
 
 /// A strip as measured.
-struct FlownStrip {
+struct StripTrajectory {
   std::string id;
   TimeSpan span;  ///< first and last firing time, seconds
   std::size_t points = 0;
@@ -114,9 +114,9 @@ struct FlownStrip {
 
 /// The last adjustment of a calibration, for further adjustments of the same block.
 struct AdjustedSurvey {
-  std::vector<FlownStrip> strips;  ///< by the index that observations use
-  WeightedObservations sample;     ///< about kRepresentative observations that represent all
-  SharedErrorLevels levels;        ///< as estimated
+  std::vector<StripTrajectory> strips;  ///< by the index that observations use
+  WeightedObservations sample;          ///< about kRepresentative observations that represent all
+  VarianceFactors levels;               ///< as estimated
 };
 
 struct BlockCalibration {

@@ -44,7 +44,7 @@ std::optional<JumpSearch::Place> addJump(const std::vector<JumpSearch::Strip>& s
   const ErrorFinding& jump = jumps.finding();
   result.diagnosis.push_back(jump);
   if (jump.determined && jump.probability > kSupported)
-    result.warnings.push_back(jump.title + ": " + jump.evidence + "; " + jump.remedy);
+    result.warnings.push_back(jump.title + ": " + jump.evidence + "; " + jump.hint);
   return jumps.place();
 }
 
@@ -87,7 +87,7 @@ std::optional<JumpSearch::Place> diagnoseParts(const AreaSample& sample,
   if (!block.compared.empty())
     addGroupDifferences(block.compared, strips.size(), edge, estimate.solution.choice,
                         estimate.solution.adjustment, result.diagnosis);
-  judgeDifferences(before, block.settings().shared_errors.position, Remedy::none, result);
+  judgeDifferences(before, block.settings().shared_errors.position, Hint::none, result);
   diagnoseFields(sample, estimate, edge, result);
   diagnoseAngles(block, estimate, edge, result);
   return jump;

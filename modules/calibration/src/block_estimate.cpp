@@ -60,7 +60,7 @@ void considerSources(const std::vector<ErrorSource>& sources, BlockSolution& sol
   SharedErrors errors = solution.adjustment.errors();
   errors.considerSources(sources);
   solution.adjustment.setErrors(errors);
-  solution.adjustment.setLevels(solution.adjustment.levels());
+  solution.adjustment.setVarianceFactors(solution.adjustment.levels());
 }
 
 /** \brief Finds the error sources that the data support, by an adjustment with all of them, and
@@ -80,7 +80,7 @@ bool selectSources(AreaSample& sample, const ChoiceRules& rules, BlockEstimate& 
   SharedErrors errors = solution.adjustment.errors();
   errors.considerSources(concerned);
   Adjustment all(errors, settings.threads);
-  all.setLevels(solution.adjustment.levels());
+  all.setVarianceFactors(solution.adjustment.levels());
   all.accumulate(estimate.pairs.observations, solution.weights.weights());
   estimate.diagnosed =
       solveForAllParameters(all, solution.choice.estimate, estimate.scale.to_control);
@@ -128,7 +128,7 @@ void allowForUndecidedSources(const SharedErrorModel& model, BlockEstimate& esti
 /// Estimates the variance components of the shared errors, and solves with them.
 void estimateComponents(const ChoiceRules& rules, BlockEstimate& estimate) {
   BlockSolution& solution = estimate.solution;
-  const SharedErrorLevels before = solution.adjustment.levels();
+  const VarianceFactors before = solution.adjustment.levels();
   estimate.control.recordComponents(
       before,
       estimateLevels(solution.adjustment, solution.choice.estimate,
@@ -208,12 +208,13 @@ namespace {
 void iterateWithPrior(AreaSample& sample, ChoiceRules& rules, const IterationCallback& progress,
                       BlockEstimate& estimate) {
   constexpr int kMostSelections = 3;
-  constexpr std::size_t kEnough = 20'000;  // pairs; determine the biases to some millimetres
+  constexpr std::size_t kPairsForFirstEstimate =
+      20'000;  // pairs; determine the biases to some millimetres
   const CalibrationSettings& settings = sample.block().settings();
   PairRules& pair_rules = estimate.pairs.rules;
   // A selection of pairs represents all of them.
   const std::size_t pairs =
-      settings.pair_budget > 0 ? std::numeric_limits<std::size_t>::max() : kEnough;
+      settings.pair_budget > 0 ? std::numeric_limits<std::size_t>::max() : kPairsForFirstEstimate;
   const std::size_t sampling =
       std::max<std::size_t>(1, pair_rules.sampling * estimate.pairs.count() / pairs);
   if (sampling != pair_rules.sampling) {
@@ -240,7 +241,7 @@ void releasePrior(SystemParameter parameter, const ChoiceRules& rules, BlockEsti
   SharedErrors errors = solution.adjustment.errors();
   errors.setPrior(errors.model().biases.without(parameter));
   solution.adjustment.setErrors(errors);
-  solution.adjustment.setLevels(solution.adjustment.levels());
+  solution.adjustment.setVarianceFactors(solution.adjustment.levels());
   choose(rules, solution);
   estimate.pairs.moved = HUGE_VAL;
   estimate.control.continueWithSources();

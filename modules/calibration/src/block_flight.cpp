@@ -25,7 +25,7 @@ std::string seconds(double from, double to) {
   return text.str();
 }
 
-void describeAttitudes(const BlockStrips& strips, const BlockIndex& index, BlockFlight& flight,
+void describeAttitudes(const BlockStrips& strips, const BlockIndex& index, BlockTrajectory& flight,
                        Warnings& warnings) {
   for (const int strip : strips.flown()) {
     const auto i = static_cast<std::size_t>(strip);
@@ -39,11 +39,11 @@ void describeAttitudes(const BlockStrips& strips, const BlockIndex& index, Block
 /// Without this, models of linear scanners would interpret points ahead and behind as pitch and
 /// crab.
 void useNonLinearModel(const std::string& remark, const CalibrationSettings& settings,
-                       BlockFlight& flight, Warnings& warnings) {
+                       BlockTrajectory& flight, Warnings& warnings) {
   const std::string text =
       remark + ": the attitude of a scanner that is not linear has to come with the trajectory";
   if (!settings.force)
-    throw InputError(text + "; give one with roll, pitch and heading", Remedy::nominal_model);
+    throw InputError(text + "; give one with roll, pitch and heading", Hint::nominal_model);
   warnings.push_back(text);
   if (!settings.recover_attitude) return;
   warnings.push_back(
@@ -87,9 +87,9 @@ HeightError checkTrajectory(const BlockStrips& strips, const CalibrationSettings
   return error;
 }
 
-BlockFlight flightOf(const BlockStrips& strips, const BlockIndex& index,
-                     const CalibrationSettings& settings, Warnings& warnings) {
-  BlockFlight flight;
+BlockTrajectory flightOf(const BlockStrips& strips, const BlockIndex& index,
+                         const CalibrationSettings& settings, Warnings& warnings) {
+  BlockTrajectory flight;
   flight.trajectory = index.trajectory();
   if (flight.trajectory->hasAttitude()) flight.attitude = AttitudeSource::trajectory;
   if (flight.trajectory->attitudeIsNominal()) flight.attitude = AttitudeSource::nominal;
@@ -107,7 +107,7 @@ BlockFlight flightOf(const BlockStrips& strips, const BlockIndex& index,
           "the sensor is taken as vertical and aligned with the flight line, "
           "it was not: " +
               outcome.remark + "; standard deviations do not include that",
-          Remedy::recover_attitude);
+          Hint::recover_attitude);
   } else {
     flight.trajectory = outcome.flight;
     if (outcome.found) {
@@ -120,7 +120,8 @@ BlockFlight flightOf(const BlockStrips& strips, const BlockIndex& index,
   return flight;
 }
 
-BlockScanner findScanner(const BlockStrips& strips, const BlockIndex& index, BlockFlight& flight) {
+BlockScanner findScanner(const BlockStrips& strips, const BlockIndex& index,
+                         BlockTrajectory& flight) {
   BlockScanner scanner;
   if (index.scanners().empty()) return scanner;
   std::vector<const ScannerDetection*> detections;

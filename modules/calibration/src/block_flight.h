@@ -19,11 +19,12 @@ HeightError checkTrajectory(const BlockStrips& strips, const CalibrationSettings
  *
  * InputError where the attitude of a scanner that is not linear would have to be recovered.
  */
-BlockFlight flightOf(const BlockStrips& strips, const BlockIndex& index,
-                     const CalibrationSettings& settings, Warnings& warnings);
+BlockTrajectory flightOf(const BlockStrips& strips, const BlockIndex& index,
+                         const CalibrationSettings& settings, Warnings& warnings);
 
 /// The pattern of the scanner by that of most strips. The planes of a scanner that has several are
 /// added to the trajectory.
-BlockScanner findScanner(const BlockStrips& strips, const BlockIndex& index, BlockFlight& flight);
+BlockScanner findScanner(const BlockStrips& strips, const BlockIndex& index,
+                         BlockTrajectory& flight);
 
 }  // namespace pcl_als

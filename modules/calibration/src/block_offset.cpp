@@ -54,8 +54,8 @@ std::vector<double> heightsAboveKnown(const AreaSample& sample, const PairSet& p
       return;
     }
     for (const PairObservation& o : pairs.observations[i])
-      if (block.strips.isHeld(o))
-        heights.push_back((block.strips.isHeld(o.b) ? 1.0 : -1.0) * o.misclosure / o.normal.z());
+      if (block.strips.isFixed(o))
+        heights.push_back((block.strips.isFixed(o.b) ? 1.0 : -1.0) * o.misclosure / o.normal.z());
   });
   const auto first = found.begin() + static_cast<std::ptrdiff_t>(block.pairAreas());
   const bool control = std::any_of(first, found.end(), [](const auto& v) { return !v.empty(); });
@@ -146,7 +146,7 @@ void warnOfBlockOffset(CalibrationResult& result) {
       if (finding.source != infoOf(source).name) continue;
       result.warnings.push_back("the strips lie " + sizeText(value, finding.std) + " " +
                                 (value > 0.0 ? sides.first : sides.second) + " " + known + " (" +
-                                finding.source + "): " + finding.remedy +
+                                finding.source + "): " + finding.hint +
                                 "; the correction of points and of the trajectory removes it");
     }
   }

@@ -20,8 +20,8 @@ std::vector<SystemParameter> wantedParameters(const ChoiceRules& rules,
   std::vector<SystemParameter> wanted = rules.settings.estimate.empty()
                                             ? automaticParameters(rules.control_covered, model)
                                             : rules.settings.estimate;
-  const auto left_out = [&](SystemParameter p) { return rules.excluded.count(p) > 0; };
-  wanted.erase(std::remove_if(wanted.begin(), wanted.end(), left_out), wanted.end());
+  const auto excluded = [&](SystemParameter p) { return rules.excluded.count(p) > 0; };
+  wanted.erase(std::remove_if(wanted.begin(), wanted.end(), excluded), wanted.end());
   return wanted;
 }
 
@@ -96,7 +96,7 @@ void choose(const ChoiceRules& rules, BlockSolution& solution) {
   while (!rules.coarse && errors.systems().count > 1 &&
          shareUndetermined(adjustment, solution.choice, rules.settings.limits, errors)) {
     adjustment.setErrors(errors);
-    adjustment.setLevels(adjustment.levels());
+    adjustment.setVarianceFactors(adjustment.levels());
     chooseParametersOf(rules, solution);
   }
   solution.differences = systemDifferences(errors, solution.solution().shared);

@@ -26,7 +26,7 @@ void holdStrip(const std::string& name, BlockStrips& strips) {
     if (strips.isReference(static_cast<int>(i)) ||
         (strips.ids[i] != name && passOfStrip(strips.ids[i]) != name))
       continue;
-    strips.held_of[i] = static_cast<int>(strips.held.size()) - 1;
+    strips.fixed_surface_of[i] = static_cast<int>(strips.held.size()) - 1;
     found = true;
   }
   if (!found) throw UsageError("there is no strip " + name + " to be held fixed");
@@ -37,7 +37,7 @@ void holdStrip(const std::string& name, BlockStrips& strips) {
 int BlockStrips::add(const std::string& id) {
   ids.push_back(id);
   used.push_back(true);
-  held_of.push_back(-1);
+  fixed_surface_of.push_back(-1);
   return static_cast<int>(ids.size()) - 1;
 }
 
@@ -49,14 +49,15 @@ int BlockStrips::addReference(const ReferenceSurface& surface) {
     throw UsageError("reference surface " + surface.name +
                      ": a strip or another surface has this name");
   const int strip = add(surface.name);
-  held_of.back() = static_cast<int>(held.size());
+  fixed_surface_of.back() = static_cast<int>(held.size());
   held.push_back({surface, true});
   return strip;
 }
 
 bool BlockStrips::isReference(int strip) const {
-  return isHeld(strip) &&
-         held[static_cast<std::size_t>(held_of[static_cast<std::size_t>(strip)])].is_reference;
+  return isFixed(strip) &&
+         held[static_cast<std::size_t>(fixed_surface_of[static_cast<std::size_t>(strip)])]
+             .is_reference;
 }
 
 std::vector<int> BlockStrips::flown() const {
@@ -69,7 +70,7 @@ std::vector<int> BlockStrips::flown() const {
 std::vector<bool> BlockStrips::corrected() const {
   std::vector<bool> corrected = used;
   for (std::size_t i = 0; i < corrected.size(); ++i)
-    corrected[i] = used[i] && !isHeld(static_cast<int>(i));
+    corrected[i] = used[i] && !isFixed(static_cast<int>(i));
   return corrected;
 }
 
@@ -90,14 +91,15 @@ void holdSurfaces(const CalibrationSettings& settings, BlockStrips& strips, Stri
   const int first = systems.count;
   systems.count += static_cast<int>(strips.held.size());
   for (std::size_t i = 0; i < strips.size(); ++i) {
-    if (strips.held_of[i] < 0) continue;
-    systems.system[i] = first + strips.held_of[i];
+    if (strips.fixed_surface_of[i] < 0) continue;
+    systems.system[i] = first + strips.fixed_surface_of[i];
     // A surface has no trajectory errors.
     if (strips.isReference(static_cast<int>(i))) systems.pass[i] = static_cast<int>(i);
   }
   for (const BlockStrips::Held& held : strips.held) addHeldSystem(held, systems);
   const auto is_held = [](int held) { return held >= 0; };
-  if (!strips.held.empty() && std::all_of(strips.held_of.begin(), strips.held_of.end(), is_held))
+  if (!strips.held.empty() &&
+      std::all_of(strips.fixed_surface_of.begin(), strips.fixed_surface_of.end(), is_held))
     throw UsageError("all strips are held fixed: there is nothing to calibrate");
 }
 

@@ -53,14 +53,14 @@ double chiSquared99(double degrees) {
 
 void judgeDetermination(const std::vector<SystemParameter>& requested, CalibrationResult& result) {
   if (result.correlation_order.empty()) {
-    result.verdict.object(CalibrationStatus::not_determined,
-                          "no parameter can be determined from this block");
+    result.verdict.downgrade(CalibrationStatus::not_determined,
+                             "no parameter can be determined from this block");
     return;
   }
   for (const SystemParameter p : requested) {
     const ParameterEstimate& estimate = result[p];
     if (estimate.status != ParameterStatus::not_estimable) continue;
-    result.verdict.object(
+    result.verdict.downgrade(
         CalibrationStatus::not_determined,
         std::string(infoOf(p).name) + " is not determined (" + estimate.reason + ")");
   }
@@ -72,11 +72,11 @@ void judgeMisfit(CalibrationResult& result) {
   const double change = misfit.change();
   const bool relevant = change > kRelevant * misfit.rms_before;
   if (relevant && change > kSignificant * misfit.change_std) {
-    result.verdict.object(
+    result.verdict.downgrade(
         CalibrationStatus::no_improvement,
         "the misfit between the strips is larger after the calibration: " + describe(misfit));
   } else if (relevant && biasesAreSignificant(result)) {
-    result.verdict.object(
+    result.verdict.downgrade(
         CalibrationStatus::no_improvement,
         "the biases differ from zero, but the misfit between the strips is no smaller: " +
             describe(misfit));
@@ -102,7 +102,7 @@ void warnOfIneffectiveBiases(CalibrationResult& result) {
            names +
            "; they may describe deformations of the strips or the ground instead of the system: "
            "compare the calibrations of parts of the block before they are applied elsewhere",
-       Remedy::strips});
+       Hint::strips});
 }
 
 /// "-88 +- 106 arcsec"
@@ -167,7 +167,7 @@ void judgeCalibration(const std::vector<SystemParameter>& requested,
                       const std::string& not_converged, CalibrationResult& result) {
   judgeDetermination(requested, result);
   if (!not_converged.empty()) {
-    result.verdict.object(CalibrationStatus::not_converged, not_converged);
+    result.verdict.downgrade(CalibrationStatus::not_converged, not_converged);
   }
   judgeMisfit(result);
   if (!result.verdict.usable() || !result.verdict.reason.empty()) return;

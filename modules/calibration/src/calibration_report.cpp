@@ -143,7 +143,7 @@ ControlPointFit heightFit(const AreaObservations& area, bool patch, const System
     fit.before += o.aboveControl(o.misclosure);
     fit.after += o.aboveControl(o.distance(biases));
     variance += o.variance;
-    shared += o.variance * o.sharing;
+    shared += o.variance * o.variance_inflation;
     count += 1.0;
   }
   fit.strips = strips.size();
@@ -170,7 +170,7 @@ ControlPointFit planFit(const AreaObservations& area, int axis, const SystemVect
     const double part = o.normal[axis];
     fit.before += part * o.aboveControl(o.misclosure);
     fit.after += part * o.aboveControl(o.distance(biases));
-    variance += part * part * o.variance * o.sharing;
+    variance += part * part * o.variance * o.variance_inflation;
   }
   const auto count = static_cast<double>(strips.size());
   fit.strips = strips.size();
@@ -239,7 +239,7 @@ void CalibrationReport::addParameters(const ParameterChoice& choice,
   reportParameters(choice, requested, result);
   if (without_control_)
     result.warnings.push_back(
-        {"without control the absolute height of the block is not checked", Remedy::control});
+        {"without control the absolute height of the block is not checked", Hint::control});
 }
 
 }  // namespace pcl_als

@@ -12,7 +12,7 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kEnough = 6;  // points for an estimate of the scatter
+constexpr std::size_t kMinimumPointsForScatter = 6;  // points for an estimate of the scatter
 // Expected standard deviations; six points exceed 2.43 once in a thousand normal samples.
 constexpr double kScatter = 2.5;
 constexpr double kSeparate = 4.5;          // standard deviations of the groups
@@ -70,10 +70,10 @@ ControlConsistency::ControlConsistency(const std::vector<ControlPointFit>& point
     if (point.used) residuals.add(point.after);
   }
   rms = residuals.rms();
-  if (standardised.size() >= kEnough) scatter = robustSigma(standardised);
+  if (standardised.size() >= kMinimumPointsForScatter) scatter = robustSigma(standardised);
   plan_rms = in_plan.rms();
-  if (plan.size() >= kEnough) plan_scatter = robustSigma(plan);
-  if (order.size() < kEnough) return;
+  if (plan.size() >= kMinimumPointsForScatter) plan_scatter = robustSigma(plan);
+  if (order.size() < kMinimumPointsForScatter) return;
   std::sort(order.begin(), order.end(),
             [](const ControlPointFit* a, const ControlPointFit* b) { return a->after < b->after; });
   std::vector<double> values;
@@ -101,7 +101,7 @@ SystemVector controlSpread(const ControlConsistency& control,
       }
     }
     Adjustment solver(adjustment.errors, adjustment.threads);
-    solver.setLevels(adjustment.levels);
+    solver.setVarianceFactors(adjustment.levels);
     solver.accumulate(moved, adjustment.weights);
     return solver.solve(adjustment.estimate, SystemVector::Zero()).biases;
   };
@@ -131,15 +131,15 @@ std::string enlarge(const SystemVector& spread, CalibrationResult& result) {
 }
 
 /// Control that scatters more than its accuracy explains. \param fits "control fits" or what of it
-/// does; \param stated "its" or "their"; \param remedy what to check and to state
+/// does; \param stated "its" or "their"; \param hint what to check and to state
 Warning scatterWarning(const std::string& fits, double rms, double scatter,
-                       const std::string& stated, const std::string& remedy) {
+                       const std::string& stated, const std::string& hint) {
   char times[32];
   std::snprintf(times, sizeof times, "%.1f", scatter);
   return {fits + " with an RMS of " + inMetres(rms, "%.3f m") + ", " + times + " times what " +
               stated + " stated standard deviations and those of the points and the trajectory " +
-              "explain: " + remedy,
-          Remedy::control_sigma};
+              "explain: " + hint,
+          Hint::control_sigma};
 }
 
 void warnOfRejected(CalibrationResult& result) {
@@ -174,7 +174,7 @@ void objectToRejection(CalibrationResult& result) {
   const std::size_t rejected = heights.size();
   if (rejected < 2 || !(static_cast<double>(rejected) > kMostRejected * all)) return;
   const double median = medianInPlace(heights);
-  result.verdict.object(
+  result.verdict.downgrade(
       CalibrationStatus::parameters_affected,
       "control contradicts the strips: they lie " + inMetres(std::abs(median), "%.3f m") +
           (median > 0.0 ? " above " : " below ") + std::to_string(rejected) + " of " +
@@ -207,7 +207,7 @@ void judgeControl(const ControlConsistency& control, const SystemVector& spread,
         affected.empty() ? "; no parameter depends on it"
                          : "; the standard deviations of " + affected + " allow for either";
     result.warnings.push_back(what + effect);
-    result.verdict.object(CalibrationStatus::parameters_affected, what + effect);
+    result.verdict.downgrade(CalibrationStatus::parameters_affected, what + effect);
   } else if (control.scatter > kScatter && control.rms > 0.0) {
     result.warnings.push_back(
         scatterWarning("control fits", control.rms, control.scatter, "its",

@@ -38,7 +38,7 @@ struct ControlConsistency {
 /// An adjustment with control.
 struct ControlledAdjustment {
   const SharedErrors& errors;
-  SharedErrorLevels levels;
+  VarianceFactors levels;
   const std::vector<AreaObservations>& observations;
   const std::vector<std::vector<double>>& weights;
   std::size_t first_control = 0;     ///< the area of the first control point; the others follow

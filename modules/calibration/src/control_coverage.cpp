@@ -9,12 +9,13 @@
 
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/common/statistics.h>
-#include <pcl_als/survey/place_in_block.h>
+#include <pcl_als/survey/offset_from_block.h>
 
 namespace pcl_als {
 namespace {
 
-constexpr double kElsewhere = 20e3;    // metres: control of the same project lies nearer
+constexpr double kMaximumDistanceOfControl =
+    20e3;                              // metres: control of the same project lies nearer
 constexpr double kOtherHeight = 10.0;  // metres: relief within a cell of 10 m is mostly smaller
 
 /// Height of a control point above the nearest of the strips below or above it; NaN: there is none.
@@ -35,14 +36,14 @@ ControlCoverage besideStrips(const std::vector<ControlPoint>& control, const Sur
   Eigen::AlignedBox2d block, box;
   for (const int strip : strips) block.extend(map.boxOf(strip));
   for (const ControlPoint& point : control) box.extend(Eigen::Vector2d(point.position.head<2>()));
-  const PlaceInBlock place(box, block);
+  const OffsetFromBlock place(box, block);
   ControlCoverage coverage;
   if (place.distance == 0.0) {
     coverage.remark = "none of them lies within a strip";
     return coverage;
   }
   coverage.remark = "they lie " + place.text();
-  if (place.distance > kElsewhere || !place.cause.empty())
+  if (place.distance > kMaximumDistanceOfControl || !place.cause.empty())
     coverage.objection = "control lies " + place.text() +
                          ": give it in the coordinate reference system and unit of the points";
   return coverage;

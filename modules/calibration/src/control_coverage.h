@@ -18,9 +18,9 @@ struct ControlCoverage {
 
 /** \brief Finds control that is in another coordinate reference system or unit than the strips.
  *
- * An objection where no point lies within any strip and the reason is known (PlaceInBlock), or the
- * nearest is more than 20 km away; and where all points that lie within strips are more than 10 m
- * above or below the lowest last return around them.
+ * An objection where no point lies within any strip and the reason is known (OffsetFromBlock), or
+ * the nearest is more than 20 km away; and where all points that lie within strips are more than 10
+ * m above or below the lowest last return around them.
  *
  * \param strips indices of the strips that are used
  */

@@ -229,8 +229,9 @@ constexpr std::array<CauseRow, 8> kCauses{{
 
 void addCauses(const CauseEvidence& evidence, std::vector<LargeCorrection>& corrections) {
   for (LargeCorrection& correction : corrections) {
-    const auto strip = std::find_if(evidence.strips.begin(), evidence.strips.end(),
-                                    [&](const FlownStrip& s) { return s.id == correction.strip; });
+    const auto strip =
+        std::find_if(evidence.strips.begin(), evidence.strips.end(),
+                     [&](const StripTrajectory& s) { return s.id == correction.strip; });
     if (strip == evidence.strips.end()) continue;
     const Examined examined{evidence, corrections, correction,
                             static_cast<std::size_t>(strip - evidence.strips.begin())};

@@ -18,7 +18,7 @@ namespace pcl_als {
 /// What a calibration knows that may explain a large trajectory correction.
 struct CauseEvidence {
   const Trajectory& trajectory;
-  const std::vector<FlownStrip>& strips;              ///< by index
+  const std::vector<StripTrajectory>& strips;         ///< by index
   const std::vector<AreaObservations>& observations;  ///< by area
   const std::vector<int>& pass;                       ///< StripSystems::pass; empty: each its own
   const std::optional<JumpSearch::Place>& jump;       ///< of the trajectory

@@ -91,7 +91,7 @@ ErrorFinding findingOf(SystemParameter p, const ParameterEstimate& estimate,
   finding.std = estimate.std / info.internal_per_unit;
   finding.effect = (designBlock(edge).col(indexOf(p)) * estimate.bias).norm();
   finding.determined = finding.corrected = true;
-  finding.remedy = "apply this calibration";
+  finding.hint = "apply this calibration";
   finding.evidence = evidenceOf(finding);
   return finding;
 }
@@ -109,7 +109,7 @@ ErrorFinding findingOf(ErrorSource source, const AdjustmentSolution& solution,
   finding.std = solution.source_std[i] / info.internal_per_unit;
   finding.effect = std::abs(solution.source_value[i]) * unit_effect;
   finding.determined = isDetermined(source, solution, model);
-  finding.remedy = info.remedy;
+  finding.hint = info.hint;
   finding.evidence = evidenceOf(finding);
   return finding;
 }
@@ -197,7 +197,7 @@ void addHeldSources(const ErrorSourceVector& values, CalibrationResult& result) 
 void addSourceEffects(const ErrorSourceVector& values, AreaObservations& observations) {
   if (values.isZero(0.0)) return;
   for (PairObservation& o : observations)
-    o.further += static_cast<float>(o.effectOfSources(values));
+    o.other_effects += static_cast<float>(o.effectOfSources(values));
 }
 
 void removeSources(const ErrorSourceVector& values, AreaObservations& observations) {

@@ -36,7 +36,7 @@ bool isPossible(ErrorSource source, const AdjustmentSolution& diagnosed,
 
 /** \brief Adds the diagnosis: for every estimated system parameter and every error source that was
  * considered, the probability that it is present (SpikeAndSlab), its value, its effect at the edge
- * of the swath, the evidence and the remedy.
+ * of the swath, the evidence and the hint.
  *
  * Sources that the data support are corrected, slope_ranging excepted, which depends on the
  * surface. A source is determined as in SharedErrorModel::isDetermined().

@@ -13,9 +13,9 @@
 namespace pcl_als {
 namespace {
 
-Remedy remedyOf(PointField field) {
-  if (field == PointField::scanner_channel) return Remedy::channels;
-  return field == PointField::user_data ? Remedy::user_data : Remedy::none;
+Hint remedyOf(PointField field) {
+  if (field == PointField::scanner_channel) return Hint::channels;
+  return field == PointField::user_data ? Hint::user_data : Hint::none;
 }
 
 /// Points of a strip with one value of a field, in an area.
@@ -61,7 +61,7 @@ std::vector<StripPair> pairsOfParts(const FieldDivision& division, const SurveyB
     if (corrected[i]) strips.push_back(static_cast<int>(i));
   std::vector<StripPair> between;
   for (const StripPair& pair : block.pairs)
-    if (!block.strips.isHeld(pair.first) && !block.strips.isHeld(pair.second))
+    if (!block.strips.isFixed(pair.first) && !block.strips.isFixed(pair.second))
       between.push_back(pair);
   return division.pairs(between, strips);
 }

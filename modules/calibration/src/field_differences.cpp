@@ -35,7 +35,7 @@ bool weighJointly(const std::vector<AreaObservations>& observations,
 }  // namespace
 
 FieldDivision FieldDivision::of(PointField field, const ValueCounts& counts) {
-  constexpr std::size_t kMost = 16;  // parts of one instrument
+  constexpr std::size_t kMaximumParts = 16;  // parts of one instrument
   // An oscillating mirror measures half of its points in each direction.
   const double least_share = field == PointField::scan_direction ? 0.3 : 0.02;
   std::map<int, double> sums;
@@ -53,7 +53,7 @@ FieldDivision FieldDivision::of(PointField field, const ValueCounts& counts) {
     return std::count_if(division.values.begin(), division.values.end(),
                          [&](int value) { return of_strip.second.count(value) > 0; }) > 1;
   };
-  if (division.values.size() > kMost || std::none_of(counts.begin(), counts.end(), several))
+  if (division.values.size() > kMaximumParts || std::none_of(counts.begin(), counts.end(), several))
     division.values.clear();
   return division;
 }
@@ -105,12 +105,12 @@ std::vector<ErrorFinding> fieldDifferences(const FieldDivision& division,
   };
   set_own(true);
   Adjustment adjustment(errors, block.threads);
-  adjustment.setLevels(block.levels);
+  adjustment.setVarianceFactors(block.levels);
   std::vector<ErrorFinding> findings;
   if (!weighJointly(observations, block.estimate, block.threads, adjustment)) return findings;
   set_own(false);
   adjustment.setErrors(errors);
-  adjustment.setLevels(block.levels);
+  adjustment.setVarianceFactors(block.levels);
   ParameterChoice choice;
   choice.estimate = block.estimate;
   choice.solution = adjustment.unsolved(SystemVector::Zero());

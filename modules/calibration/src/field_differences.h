@@ -57,7 +57,7 @@ struct FieldDivision {
 struct AdjustedBlock {
   std::vector<TimeSpan> spans;  ///< by strip
   SharedErrorModel model;
-  SharedErrorLevels levels;
+  VarianceFactors levels;
   std::vector<SystemParameter> estimate;
   int threads = 0;
 };

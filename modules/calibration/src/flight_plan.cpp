@@ -43,7 +43,7 @@ void warn(FlightPlanResult& result) {
   }
   if (result.control_points == 0) {
     warnings.push_back(
-        {"without control the absolute height of the block will not be checked", Remedy::control});
+        {"without control the absolute height of the block will not be checked", Hint::control});
   }
 }
 

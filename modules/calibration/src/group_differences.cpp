@@ -152,7 +152,7 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
     for (const DifferenceUnknown& u : unknowns) errors.setOwn(system, u.index, u.slab);
     Adjustment other = adjustment;
     other.setErrors(errors);
-    other.setLevels(adjustment.levels());
+    other.setVarianceFactors(adjustment.levels());
     estimateLevels(other, choice.estimate, adjustment.levels());
     const AdjustmentSolution solution = other.solve(choice.estimate, choice.solution.biases);
     const SpikeAndSlab mixture =
@@ -163,7 +163,7 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
       finding.source = groups[k].name + "_" + u.name;
       finding.title =
           u.title + " of " + readable(groups[k].name) + " against " + readable(groups.front().name);
-      finding.remedy = remedyOf(u, groups[k].name);
+      finding.hint = remedyOf(u, groups[k].name);
       if (!solution.solved) {
         finding.determined = false;
         finding.evidence = evidenceOf(finding);
@@ -173,18 +173,17 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
   }
 }
 
-void judgeDifferences(std::size_t first, double relevant, Remedy remedy,
-                      CalibrationResult& result) {
+void judgeDifferences(std::size_t first, double relevant, Hint hint, CalibrationResult& result) {
   for (std::size_t i = first; i < result.diagnosis.size(); ++i) {
     const ErrorFinding& f = result.diagnosis[i];
     if (!f.determined || f.probability <= kSupported) continue;
     char size[80];
     std::snprintf(size, sizeof size, " differs by %.3g +- %.2g %s", f.value, f.std, f.unit.c_str());
     const std::string text = f.source + ": " + f.title + size;
-    result.warnings.emplace_back(text + "; " + f.remedy, remedy);
+    result.warnings.emplace_back(text + "; " + f.hint, hint);
     if (f.source.find("offset_") == std::string::npos && f.effect > relevant)
-      result.verdict.object(CalibrationStatus::parameters_affected,
-                            text + ", and no parameters of one system describe both");
+      result.verdict.downgrade(CalibrationStatus::parameters_affected,
+                               text + ", and no parameters of one system describe both");
   }
 }
 

@@ -32,7 +32,7 @@ struct DifferenceUnknown {
 /// Boresight, range bias and scan angle scale; with \a offsets also the coordinates.
 std::vector<DifferenceUnknown> differenceUnknowns(bool offsets);
 
-/// The finding of one unknown, without its source, title and remedy. \param at index in the mixture
+/// The finding of one unknown, without its source, title and hint. \param at index in the mixture
 ErrorFinding differenceFinding(const DifferenceUnknown& unknown, const SpikeAndSlab& mixture,
                                Eigen::Index at, const ScanGeometry& edge);
 
@@ -65,6 +65,6 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
  * \param first of the findings of addGroupDifferences() or fieldDifferences()
  * \param relevant smallest effect of the difference of a parameter that is an objection, metres
  */
-void judgeDifferences(std::size_t first, double relevant, Remedy remedy, CalibrationResult& result);
+void judgeDifferences(std::size_t first, double relevant, Hint hint, CalibrationResult& result);
 
 }  // namespace pcl_als

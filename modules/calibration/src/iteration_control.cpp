@@ -94,7 +94,7 @@ double IterationControl::componentsTolerance() const {
   return components_.estimates > 1 ? kLater : kFirst;
 }
 
-void IterationControl::recordComponents(const SharedErrorLevels& before,
+void IterationControl::recordComponents(const VarianceFactors& before,
                                         const EstimatedLevels& estimated) {
   components_.unchanged = estimated.expected.near(before);
   components_.most_likely = estimated.most_likely;
@@ -133,7 +133,7 @@ void IterationControl::record(const SystemVector& before, const IterationMovemen
 
 void IterationControl::continueWithSources() {
   phase_ = Phase::refinement;
-  const SharedErrorLevels most_likely = components_.most_likely;
+  const VarianceFactors most_likely = components_.most_likely;
   components_ = {};
   components_.most_likely = most_likely;
   coarse_iterations_ = iterations_.size();

@@ -68,10 +68,10 @@ class IterationControl {
   Step next(bool complete);
 
   /// Where the search for variance components begins, and its tolerance, see estimateLevels().
-  const SharedErrorLevels& componentsStart() const { return components_.most_likely; }
+  const VarianceFactors& componentsStart() const { return components_.most_likely; }
   double componentsTolerance() const;
   /// Records components, which were \a before.
-  void recordComponents(const SharedErrorLevels& before, const EstimatedLevels& estimated);
+  void recordComponents(const VarianceFactors& before, const EstimatedLevels& estimated);
 
   /// Records an iteration that began with the biases \a before.
   void record(const SystemVector& before, const IterationMovement& movement, const PairSet& pairs,
@@ -86,9 +86,9 @@ class IterationControl {
   /// The variance components estimated so far.
   struct VarianceComponents {
     int estimates = 0;
-    bool open = false;              ///< whether the current iteration estimates them
-    bool unchanged = false;         ///< whether the last estimation did not change them
-    SharedErrorLevels most_likely;  ///< of the last estimation
+    bool open = false;            ///< whether the current iteration estimates them
+    bool unchanged = false;       ///< whether the last estimation did not change them
+    VarianceFactors most_likely;  ///< of the last estimation
 
     bool complete() const {
       constexpr int kMostEstimates = 8;

@@ -11,9 +11,9 @@ namespace {
 /// Calls \a visit with observations of the whole block, of which these are enough for its extent.
 template <class Visit>
 void visitSome(const PairSet& pairs, const Visit& visit) {
-  constexpr std::size_t kEnough = 20'000;
+  constexpr std::size_t kSampledPairs = 20'000;
   std::size_t first = 0;
-  const std::size_t every = std::max<std::size_t>(1, pairs.count() / kEnough);
+  const std::size_t every = std::max<std::size_t>(1, pairs.count() / kSampledPairs);
   for (const AreaObservations& area : pairs.observations) {
     for (; first < area.size(); first += every) visit(area[first]);
     first -= area.size();

@@ -21,7 +21,7 @@ constexpr double kInformed = 0.1;  // information of the observations over that 
 constexpr double kLargest = SharedErrorModel::kDetermined * kSlab;
 constexpr int kAxes = 3;
 // Knots: errors are linear between them, so that a jump takes one or two intervals.
-constexpr std::size_t kApart = 2;
+constexpr std::size_t kMinimumKnotDistance = 2;
 
 /// A change of position between two neighbouring knots.
 struct Change {
@@ -34,8 +34,7 @@ struct Change {
 };
 
 /// A priori variance of a change over some seconds, m^2.
-double priorVariance(const SharedErrorModel& model, const SharedErrorLevels& levels,
-                     double seconds) {
+double priorVariance(const SharedErrorModel& model, const VarianceFactors& levels, double seconds) {
   const double position = model.position * model.position;
   const double markov =
       (1.0 - model.smooth_share - model.constant_share) * position * levels.gauss_markov.position;
@@ -60,8 +59,8 @@ void addChanges(const SharedErrors& errors, const Adjustment& adjustment,
                 const StripCovariance& covariance, const AdjustmentSolution& solution, int place,
                 int strip, std::vector<Change>& changes) {
   const auto knots = knotsOf(errors, strip);
-  for (std::size_t i = kApart; i < knots.size(); ++i) {
-    const std::size_t first = i - kApart;
+  for (std::size_t i = kMinimumKnotDistance; i < knots.size(); ++i) {
+    const std::size_t first = i - kMinimumKnotDistance;
     const int before = knots[first].blocks.front().first, after = knots[i].blocks.front().first;
     SharedErrors::Expectation difference;
     difference.blocks = {{before, -1.0}, {after, 1.0}};
@@ -94,7 +93,7 @@ ErrorFinding emptyFinding() {
   finding.title = "jump of the trajectory within a strip";
   finding.unit = "m";
   finding.std = kSlab;
-  finding.remedy =
+  finding.hint =
       "check the GNSS solution at this time (ambiguities, change of the base station) and process "
       "the trajectory again; or leave the strip out";
   finding.evidence = "the strips have too few surfaces in common";

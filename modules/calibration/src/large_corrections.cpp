@@ -46,7 +46,7 @@ class EnlargedAdjustment {
     errors_.setVarianceFactor(passes_[curve].index, static_cast<int>(axis),
                               std::max(1.0, excursion.value * excursion.value / variances_[axis]));
     adjustment_.setErrors(errors_);
-    adjustment_.setLevels(solution_.adjustment.levels());
+    adjustment_.setVarianceFactors(solution_.adjustment.levels());
     const AdjustmentSolution solved =
         adjustment_.solve(solution_.choice.estimate, solution_.solution().biases);
     if (!solved.solved) return {};
@@ -100,7 +100,7 @@ std::vector<CorrectionExcursion> excursionsOfAll(const BlockSolution& solution,
 }
 
 /// Metres by which one radian (or metre) of each axis moves a point at the edge of the swath.
-double leverOf(std::size_t axis, const FlownStrip& strip) {
+double leverOf(std::size_t axis, const StripTrajectory& strip) {
   constexpr std::size_t kPitch = 3, kRoll = 4;
   if (axis < kPitch) return 1.0;
   if (axis == kPitch) return strip.height;
@@ -108,7 +108,7 @@ double leverOf(std::size_t axis, const FlownStrip& strip) {
                        : strip.height * std::tan(strip.half_angle);
 }
 
-LargeCorrection correctionOf(const CorrectionExcursion& excursion, const FlownStrip& strip,
+LargeCorrection correctionOf(const CorrectionExcursion& excursion, const StripTrajectory& strip,
                              const Trajectory& trajectory) {
   LargeCorrection correction;
   correction.strip = strip.id;
@@ -133,7 +133,7 @@ LargeCorrection correctionOf(const CorrectionExcursion& excursion, const FlownSt
 std::vector<LargeCorrection> largeCorrections(const SurveyBlock& block,
                                               const BlockEstimate& estimate,
                                               const std::vector<StripErrors>& errors,
-                                              const std::vector<FlownStrip>& strips,
+                                              const std::vector<StripTrajectory>& strips,
                                               const LargeCorrectionHints& hints) {
   std::vector<LargeCorrection> found;
   if (!estimate.control.isConverged() || !estimate.solution.solution().solved) return found;

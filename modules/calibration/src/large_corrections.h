@@ -46,7 +46,7 @@ struct LargeCorrectionHints {
 std::vector<LargeCorrection> largeCorrections(const SurveyBlock& block,
                                               const BlockEstimate& estimate,
                                               const std::vector<StripErrors>& errors,
-                                              const std::vector<FlownStrip>& strips,
+                                              const std::vector<StripTrajectory>& strips,
                                               const LargeCorrectionHints& hints);
 
 }  // namespace pcl_als

@@ -32,7 +32,7 @@ void NoiseShares::setSharing(AreaObservations& observations) const {
     for (int i = 0; i < 3; ++i) patch += pair.weights[i] * vertices[pair.vertex[i]];
     const double point = used_[pair.of_point][pair.point];
     const double row = pair.point_variance * point + pair.vertex_variance * patch;
-    o.sharing = std::max(1.0F, static_cast<float>(row / o.variance));
+    o.variance_inflation = std::max(1.0F, static_cast<float>(row / o.variance));
   }
 }
 

@@ -62,8 +62,8 @@ void judgeFarPairs(const Pairs& far, std::size_t all, Parts& parts, CalibrationR
                            " too far apart in height to be compared: " + listedNames(distances);
   result.warnings.push_back(
       {text + "; check the heights of these strips (unit, height reference, trajectory)",
-       Remedy::strips});
-  if (divided) result.verdict.object(CalibrationStatus::parameters_affected, text);
+       Hint::strips});
+  if (divided) result.verdict.downgrade(CalibrationStatus::parameters_affected, text);
 }
 
 void judgePairsWithoutSurface(const Pairs& without, std::size_t all, const Parts& parts,
@@ -80,7 +80,7 @@ void judgePairsWithoutSurface(const Pairs& without, std::size_t all, const Parts
     result.warnings.push_back({"strip " + strip +
                                    " has no pairs with any strip although it overlaps others: no "
                                    "smooth surface in common was found",
-                               Remedy::strips});
+                               Hint::strips});
   std::string& reason = result.verdict.reason;
   reason += (reason.empty() ? "" : "; ") + share(without, all) +
             (without.size() == 1 ? " was" : " were") +

@@ -29,13 +29,13 @@ using PairRow = Eigen::Matrix<float, 1, kSystemParameterCount, kPairOptions>;
 using PairTilt = Eigen::Matrix<float, 2, kSystemParameterCount, kPairOptions>;
 using PairSources = Eigen::Matrix<float, 1, kErrorSourceCount, kPairOptions>;
 /// Effect of the three boresight angles on a distance.
-using PairTurn = Eigen::RowVector3f;
+using BoresightPartials = Eigen::RowVector3f;
 
 /// Which part of the points of a strip a surface consists of, see AreaMatcher::prepare().
-enum class Look : std::int8_t {
+enum class ScanHalf : std::int8_t {
   whole,
-  ahead = whole,  ///< pulses ahead of the sensor
-  back,           ///< pulses behind the sensor
+  fore = whole,  ///< pulses ahead of the sensor
+  aft,           ///< pulses behind the sensor
 };
 
 /** \brief One point-patch pair as one scalar equation, n'(y - A delta) with A = A_A - A_B (Eqs.
@@ -55,8 +55,8 @@ struct PairObservation {
 
   int a = kControl, b = 0;
   std::int32_t point = -1;  ///< of strip a, in the area's TIN; -1 for control
-  Look look_a = Look::whole, look_b = Look::whole;    ///< of the strips' surfaces
-  ControlError control_error = ControlError::height;  ///< of control only
+  ScanHalf half_a = ScanHalf::whole, half_b = ScanHalf::whole;  ///< of the strips' surfaces
+  ControlError control_error = ControlError::height;            ///< of control only
   /// Times of emission of the point and of the patch, seconds; the mean of its vertices.
   double time_a = 0.0, time_b = 0.0;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, upward or horizontal, ground frame
@@ -77,10 +77,10 @@ struct PairObservation {
   /// Sum of the absolute covariances with all pairs of the area (itself included) over the
   /// variance: a point may form pairs in several strips and be a vertex of several patches, see
   /// NoiseShares.
-  float sharing = 1.0F;
+  float variance_inflation = 1.0F;
   /// Of the distance, metres: effect of what is corrected besides the biases of the first system
   /// (error sources, differences between systems). Ignored by the adjustment.
-  float further = 0.0F;
+  float other_effects = 0.0F;
   /// |x| and |z| of the patch in the laser unit's frame, metres.
   float lateral = 0.0F, height = 0.0F;
 
@@ -88,13 +88,15 @@ struct PairObservation {
   struct Special {
     /// A vertex of the patch.
     struct Vertex {
-      double time = 0.0;                 ///< of emission, seconds
-      float weight = 0.0F;               ///< of the interpolation at the point's foot
-      PairTurn turn = PairTurn::Zero();  ///< n' A of the boresight angles, or that of turn_b
+      double time = 0.0;    ///< of emission, seconds
+      float weight = 0.0F;  ///< of the interpolation at the point's foot
+      BoresightPartials turn =
+          BoresightPartials::Zero();  ///< n' A of the boresight angles, or that of boresight_b
     };
     /// n' A_A and n' A_B of the three boresight angles, for trajectory errors of strips that are
     /// held fixed, whose rows are zero.
-    PairTurn turn_a = PairTurn::Zero(), turn_b = PairTurn::Zero();
+    BoresightPartials boresight_a = BoresightPartials::Zero(),
+                      boresight_b = BoresightPartials::Zero();
     /// Whether the vertices were measured so far apart in time (rosette scanners) that each has a
     /// trajectory error of its own; that of the patch is their weighted mean.
     bool mixed_times = false;
@@ -120,11 +122,12 @@ struct PairObservation {
     return sources.cast<double>() * values;
   }
   /// The surfaces of the point and of the patch, counted over all strips of the block.
-  int surfaceA() const { return surfaceIndex(a, look_a); }
-  int surfaceB() const { return surfaceIndex(b, look_b); }
-  static int surfaceIndex(int strip, Look look) { return 2 * strip + static_cast<int>(look); }
+  int surfaceA() const { return surfaceIndex(a, half_a); }
+  int surfaceB() const { return surfaceIndex(b, half_b); }
+  static int surfaceIndex(int strip, ScanHalf half) { return 2 * strip + static_cast<int>(half); }
   /// Pairs exist in both directions. Distances are reported as heights of the first strip above the
-  /// second, or of the look ahead above the look back: 1, or -1 where the patch is in the first.
+  /// second, or of the fore half-scan above the aft half-scan: 1, or -1 where the patch is in the
+  /// first.
   double sign() const { return surfaceA() < surfaceB() ? 1.0 : -1.0; }
   /// The plan position of a target; other control shows the height of strips above it.
   bool isInPlan() const { return a == kControl && control_error == ControlError::plan; }
@@ -137,7 +140,7 @@ struct PairObservation {
   double aboveControl(double of_distance) const { return -of_distance / effectOfControl(); }
   /// Normal distance of the corrected point above the corrected patch, metres.
   double distance(const SystemVector& biases) const {
-    return misclosure - row() * biases - further;
+    return misclosure - row() * biases - other_effects;
   }
   /// Effect on the distance of the unknowns of a system that measured the point, or the patch.
   double effectAtPoint(const SystemUnknowns& u) const {
@@ -190,10 +193,11 @@ constexpr double kSignificantTilt = 5.0;
 /// has some 300 pairs in an area where it has 40 to 150 candidates.
 template <typename Amount>
 Amount candidatesPerStrip(Amount all, Amount strips_in_areas, Amount pairs_in_areas) {
-  constexpr Amount kPairs = 6, kFewestPairs = 300, kFewest = 40, kEnough = 150;
+  constexpr Amount kPairs = 6, kFewestPairs = 300, kFewestCandidates = 40,
+                   kSufficientCandidates = 150;
   const Amount pairs = std::max<Amount>(1, pairs_in_areas);
-  const Amount fewest =
-      std::clamp<Amount>(kFewestPairs * strips_in_areas / pairs, kFewest, kEnough);
+  const Amount fewest = std::clamp<Amount>(kFewestPairs * strips_in_areas / pairs,
+                                           kFewestCandidates, kSufficientCandidates);
   return std::max(std::min(all / strips_in_areas, kPairs * all / pairs), fewest);
 }
 

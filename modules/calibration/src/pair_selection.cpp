@@ -100,7 +100,8 @@ std::vector<PairSelection::Group> PairSelection::groupsOf(std::size_t area,
                          orientation}];
     const double weight = weights[i] / o.variance, sign = o.sign();
     const SystemRow row = adjustment.reducedRow(o);
-    group.influence += weight / o.sharing * (row * worth * row.transpose()).value();  // w^2 v
+    group.influence +=
+        weight / o.variance_inflation * (row * worth * row.transpose()).value();  // w^2 v
     const Eigen::Array2d times(sign > 0.0 ? o.time_a : o.time_b, sign > 0.0 ? o.time_b : o.time_a);
     group.members.push_back({i, o.normal, sign * o.sources[indexOf(ErrorSource::slope_ranging)],
                              weight, sign * adjustment.residual(o, solution), times, sign});

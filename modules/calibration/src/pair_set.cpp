@@ -106,7 +106,7 @@ bool isControlCovered(const PairSet& pairs, const SurveyBlock& block) {
   return isAnyPointSeen(pairs, block) ||
          std::any_of(pairs.observations.begin(), end, [&](const AreaObservations& area) {
            return std::any_of(area.begin(), area.end(),
-                              [&](const PairObservation& o) { return block.strips.isHeld(o); });
+                              [&](const PairObservation& o) { return block.strips.isFixed(o); });
          });
 }
 

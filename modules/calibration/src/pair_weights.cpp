@@ -81,10 +81,11 @@ PairResidual::Group PairResidual::groupOf(const PairObservation& o) {
 
 double PairWeights::mostLikelyPointing(const std::map<Group, Values>& groups, int threads) {
   constexpr std::array<double, 7> kFactors{1.0, 0.5, 0.25, 0.1, 0.02, 2.0, 4.0};
-  constexpr std::size_t kEnough = 3000;  // residuals of a group, to choose between the factors
+  constexpr std::size_t kSampledResiduals =
+      3000;  // residuals of a group, to choose between the factors
   std::vector<std::pair<Values, double>> samples;  // with the residuals that one represents
   for (const auto& [group, values] : groups) {
-    const std::size_t every = std::max<std::size_t>(1, values.residual.size() / kEnough);
+    const std::size_t every = std::max<std::size_t>(1, values.residual.size() / kSampledResiduals);
     samples.emplace_back(values.thinned(every), static_cast<double>(every));
   }
   std::array<double, kFactors.size()> costs{};
@@ -129,7 +130,7 @@ PairWeights::Kept PairWeights::weigh(const std::vector<PairResidual>& residuals,
     const double scale = found == scales_.end() ? 1.0 : found->second;
     const double variance = scale * scale * varianceWith(pointing_, pair.variance, pair.pointing);
     const double robust = weight(pair.residual / std::sqrt(variance));
-    weights.push_back(robust * pair.variance / (variance * pair.sharing));
+    weights.push_back(robust * pair.variance / (variance * pair.variance_inflation));
     if (robust == 0.0) continue;
     kept.squares += pair.residual * pair.residual / pair.variance;
     ++kept.pairs;

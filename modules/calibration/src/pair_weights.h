@@ -23,11 +23,11 @@ struct PairResidual {
         residual(of_solution),
         variance(observation.variance),
         pointing(observation.pointing),
-        sharing(observation.sharing) {}
+        variance_inflation(observation.variance_inflation) {}
 
   Group group;
-  double residual;                     ///< metres
-  double variance, pointing, sharing;  ///< as of PairObservation
+  double residual;                                ///< metres
+  double variance, pointing, variance_inflation;  ///< as of PairObservation
 };
 
 /** \brief Weights of pairs from the residuals of a solution.

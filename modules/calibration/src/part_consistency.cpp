@@ -95,7 +95,7 @@ void judgeParts(const std::vector<PartDifference>& differences, CalibrationResul
              " of the block by " + ratio +
              ": deformations of the strips or errors of the scanner that the model does not "
              "contain; its standard deviation includes the difference",
-         Remedy::strips});
+         Hint::strips});
   }
 }
 

@@ -23,7 +23,7 @@ class AreaMatcher::PointGeometry {
 
   bool atPoint(const StripPart& part, std::int32_t index, const PatchQuality& surface) {
     const auto i = static_cast<std::size_t>(index);
-    return at(part, {part.times[i], part.intensity[i], static_cast<float>(part.turning[i])},
+    return at(part, {part.times[i], part.intensity[i], static_cast<float>(part.scan_direction[i])},
               part.surface.tin().points()[i], surface);
   }
 
@@ -42,7 +42,8 @@ class AreaMatcher::PointGeometry {
       const auto v = static_cast<std::size_t>(triangle[i]);
       const double weight = match.weights[i];
       mean.time += weight * part.times[v];
-      mean.turning += static_cast<float>(weight) * static_cast<float>(part.turning[v]);
+      mean.scan_direction +=
+          static_cast<float>(weight) * static_cast<float>(part.scan_direction[v]);
       if (scale_ != nullptr)
         log_intensity += weight * SourceEffect::logIntensity(part.intensity[v], *scale_);
       foot += weight * part.surface.tin().points()[v];

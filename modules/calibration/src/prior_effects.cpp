@@ -28,9 +28,9 @@ std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
                                       const Adjustment& adjustment, const ParameterChoice& choice) {
   std::vector<PriorEffect> effects;
   if (large.empty() || choice.estimate.empty()) return effects;
-  const SharedErrorLevels levels = adjustment.levels();
+  const VarianceFactors levels = adjustment.levels();
   SharedErrors errors = adjustment.errors();
-  const SharedErrors::Variances priors = errors.variances(SharedErrorLevels());
+  const SharedErrors::Variances priors = errors.variances(VarianceFactors());
   const SharedErrors::Variances adjusted = errors.variances(levels);
   for (const StripErrorSize& e : large) {
     const double factor = e.ratio() * e.ratio() * priors[e.component] / adjusted[e.component];
@@ -38,7 +38,7 @@ std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
   }
   Adjustment enlarged = adjustment;
   enlarged.setErrors(errors);
-  enlarged.setLevels(levels);
+  enlarged.setVarianceFactors(levels);
   const AdjustmentSolution other = enlarged.solve(choice.estimate, choice.solution.biases);
   for (const SystemParameter p : choice.estimate) {
     const int i = indexOf(p);

@@ -16,7 +16,7 @@ namespace pcl_als {
 namespace {
 
 constexpr int kGlobal = ErrorNormal::kGlobal, kKnot = ErrorNormal::kKnot;
-constexpr int kComponents = SharedErrorLevels::kCount;
+constexpr int kComponents = VarianceFactors::kCount;
 constexpr int kLocal = kComponents - 1;
 
 /// A column or a row for each estimated parameter.
@@ -38,7 +38,7 @@ Eigen::MatrixXd columnsOf(const Matrix& all, const std::vector<SystemParameter>&
  */
 class LikelihoodEquations {
  public:
-  LikelihoodEquations(const SharedErrors& errors, const SharedErrorLevels& levels,
+  LikelihoodEquations(const SharedErrors& errors, const VarianceFactors& levels,
                       const ErrorNormal& normal, const std::vector<SystemParameter>& estimate);
 
   bool solved() const { return solved_; }
@@ -58,7 +58,7 @@ class LikelihoodEquations {
   double traceWith(const ErrorNormal& equations, const InverseEntries& inverse) const;
 
   const SharedErrors& errors_;
-  const SharedErrorLevels& levels_;
+  const VarianceFactors& levels_;
   const ErrorNormal& normal_;
   const std::vector<SystemParameter>& estimate_;
   BlockCholesky factor_;         ///< of H_tt
@@ -71,8 +71,8 @@ class LikelihoodEquations {
   bool solved_ = false;
 };
 
-LikelihoodEquations::LikelihoodEquations(const SharedErrors& errors,
-                                         const SharedErrorLevels& levels, const ErrorNormal& normal,
+LikelihoodEquations::LikelihoodEquations(const SharedErrors& errors, const VarianceFactors& levels,
+                                         const ErrorNormal& normal,
                                          const std::vector<SystemParameter>& estimate)
     : errors_(errors),
       levels_(levels),
@@ -181,7 +181,7 @@ void LikelihoodEquations::differentiate(const std::vector<AreaNormal>& areas, in
 
 }  // namespace
 
-RestrictedLikelihood Adjustment::restrictedLikelihood(const SharedErrorLevels& levels,
+RestrictedLikelihood Adjustment::restrictedLikelihood(const VarianceFactors& levels,
                                                       const std::vector<SystemParameter>& estimate,
                                                       double differentiated_below) const {
   const bool same_local = levels.local == levels_.local;

@@ -71,7 +71,7 @@ std::vector<SharedErrors::Expectation> SharedErrors::expectationsOf(int index) c
 }
 
 SharedErrors::Variances SharedErrors::variancesLeft(int index, const Expectation& at,
-                                                    const SharedErrorLevels& levels) const {
+                                                    const VarianceFactors& levels) const {
   const PriorVariances prior = priorVariances(levels);
   const Variances& factors = passOf(index).variance_factors;
   Variances left{};

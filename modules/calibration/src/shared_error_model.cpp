@@ -87,7 +87,7 @@ SharedErrorModel SharedErrorModel::ofGrade(const std::string& grade) {
   throw UsageError("'" + grade + "' is none of survey, tactical, mems");
 }
 
-std::array<double, SharedErrorLevels::kCount> SharedErrorLevels::values() const {
+std::array<double, VarianceFactors::kCount> VarianceFactors::values() const {
   return {gauss_markov.position, gauss_markov.roll_pitch,
           gauss_markov.heading,  smooth.position,
           smooth.roll_pitch,     smooth.heading,
@@ -95,11 +95,11 @@ std::array<double, SharedErrorLevels::kCount> SharedErrorLevels::values() const 
           constant.heading,      local};
 }
 
-SharedErrorLevels SharedErrorLevels::of(const std::array<double, kCount>& v) {
+VarianceFactors VarianceFactors::of(const std::array<double, kCount>& v) {
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}, v[9]};
 }
 
-bool SharedErrorLevels::near(const SharedErrorLevels& other) const {
+bool VarianceFactors::near(const VarianceFactors& other) const {
   const auto mine = values(), theirs = other.values();
   return std::equal(mine.begin(), mine.end(), theirs.begin(),
                     [](double a, double b) { return std::max(a, b) <= 1.5 * std::min(a, b); });

@@ -20,7 +20,7 @@ constexpr double kLength = 1.0, kAngle = 0.5 * kRadiansPerDegree, kScale = 2e-3;
 constexpr std::array<double, kSystemUnknownCount> kDifferences{
     kLength, kLength, kLength, kAngle, kAngle, kAngle, kLength, kScale, kLength, kLength, kLength};
 
-// Places of the smooth and the constant components in SharedErrorLevels::values(), and the kind of
+// Places of the smooth and the constant components in VarianceFactors::values(), and the kind of
 // an unknown: position, roll and pitch, heading.
 constexpr int kSmooth = 3, kConstant = 6;
 int kindOf(int unknown) {
@@ -230,14 +230,14 @@ SharedErrors::Place SharedErrors::placeOf(int index, double time) const {
 }
 
 SharedErrors::Variances SharedErrors::shareOf(double share,
-                                              const SharedErrorLevels::Trajectory& levels) const {
+                                              const VarianceFactors::Trajectory& levels) const {
   const double position = share * model_.position * model_.position * levels.position;
   const double roll_pitch = share * model_.roll_pitch * model_.roll_pitch * levels.roll_pitch;
   const double heading = share * model_.heading * model_.heading * levels.heading;
   return {position, position, position, roll_pitch, roll_pitch, heading};
 }
 
-SharedErrors::PriorVariances SharedErrors::priorVariances(const SharedErrorLevels& levels) const {
+SharedErrors::PriorVariances SharedErrors::priorVariances(const VarianceFactors& levels) const {
   std::array<double, kInstrumentBlocks * kPerKnot> instrument;
   constexpr double kAbsent = 1e-6;  // of the prior's standard deviation, where it must not be zero
   instrument.fill(1.0);             // of unknowns without effect
@@ -264,7 +264,7 @@ int SharedErrors::observedInstrumentBlocks() const {
   return second ? 2 : 1;
 }
 
-SharedErrors::Variances SharedErrors::variances(const SharedErrorLevels& levels) const {
+SharedErrors::Variances SharedErrors::variances(const VarianceFactors& levels) const {
   const PriorVariances prior = priorVariances(levels);
   Variances sum{};
   for (int i = 0; i < kPerKnot; ++i)
@@ -277,7 +277,7 @@ void SharedErrors::setVarianceFactor(int strip, int component, double factor) {
   strips_[pass].variance_factors[static_cast<std::size_t>(component)] = factor;
 }
 
-SharedErrors::PriorDiagonals SharedErrors::priorDiagonals(const SharedErrorLevels& levels) const {
+SharedErrors::PriorDiagonals SharedErrors::priorDiagonals(const VarianceFactors& levels) const {
   const PriorVariances prior = priorVariances(levels);
   PriorDiagonals diagonals{Eigen::VectorXd::Zero(unknowns()), Eigen::VectorXd::Zero(unknowns())};
   const auto add = [](Eigen::VectorXd& information, int block, const Variances& variances,
@@ -301,7 +301,7 @@ SharedErrors::PriorDiagonals SharedErrors::priorDiagonals(const SharedErrorLevel
   return diagonals;
 }
 
-Eigen::SparseMatrix<double> SharedErrors::priorInformation(const SharedErrorLevels& levels) const {
+Eigen::SparseMatrix<double> SharedErrors::priorInformation(const VarianceFactors& levels) const {
   const PriorDiagonals diagonals = priorDiagonals(levels);
   Eigen::SparseMatrix<double> information = gauss_markov_;
   for (Eigen::Index column = 0; column < information.outerSize(); ++column) {
@@ -313,7 +313,7 @@ Eigen::SparseMatrix<double> SharedErrors::priorInformation(const SharedErrorLeve
 }
 
 std::vector<Eigen::SparseMatrix<double>> SharedErrors::priorParts(
-    const SharedErrorLevels& levels) const {
+    const VarianceFactors& levels) const {
   const PriorDiagonals diagonals = priorDiagonals(levels);
   std::vector<std::vector<Eigen::Triplet<double>>> entries(kTrajectoryComponents);
   for (int column = 0; column < unknowns(); ++column) {
@@ -362,7 +362,7 @@ Eigen::MatrixXd SharedErrors::contributions(const Eigen::VectorXd& solution) con
   return sum;
 }
 
-double SharedErrors::priorLogDeterminant(const SharedErrorLevels& levels) const {
+double SharedErrors::priorLogDeterminant(const VarianceFactors& levels) const {
   const PriorVariances prior = priorVariances(levels);
   const auto logOf = [](const auto& variances) {
     double sum = 0.0;

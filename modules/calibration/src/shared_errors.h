@@ -28,7 +28,7 @@ SharedErrorModel withKnotsFor(SharedErrorModel model,
 
 /// Variance components: estimated variance over the variance of the model, by component and kind of
 /// error.
-struct SharedErrorLevels {
+struct VarianceFactors {
   /// Variance components of one component of the trajectory errors, by kind.
   struct Trajectory {
     double position = 1.0, roll_pitch = 1.0, heading = 1.0;
@@ -39,18 +39,18 @@ struct SharedErrorLevels {
   /// All of them, those of the trajectory components first.
   static constexpr int kCount = 10;
   std::array<double, kCount> values() const;
-  static SharedErrorLevels of(const std::array<double, kCount>& values);
+  static VarianceFactors of(const std::array<double, kCount>& values);
 
   /// Whether none differs by more than a factor of 1.5, which is less than their standard
   /// deviation.
-  bool near(const SharedErrorLevels& other) const;
+  bool near(const VarianceFactors& other) const;
 };
 
 /// Which strips share a system, and which share a trajectory.
 struct StripSystems {
   std::vector<int> system;  ///< by strip, from 0; empty: one system
   int count = 1;            ///< of systems
-  OwnUnknowns own;          ///< what systems have of their own
+  PerSystemParameters own;  ///< what systems have of their own
   /// By strip, the first strip of the same pass: channels of one scanner have the same trajectory
   /// errors. Empty: every strip is a pass.
   std::vector<int> pass;
@@ -159,13 +159,13 @@ class SharedErrors {
   std::vector<Expectation> expectationsOf(int strip) const;
   /// What remains of the variances of a strip's errors, m^2 and rad^2.
   std::array<double, kPerKnot> variancesLeft(int strip, const Expectation& at,
-                                             const SharedErrorLevels& levels) const;
+                                             const VarianceFactors& levels) const;
   /// The errors of a strip according to a solution (AdjustmentSolution::shared), at the times of
   /// expectationsOf().
   std::vector<TrajectoryErrorKnot> errorsOf(int strip, const Eigen::VectorXd& solution) const;
 
   /// Variance of a strip's shift in an area, each axis, m^2.
-  double localVariance(const SharedErrorLevels& levels) const {
+  double localVariance(const VarianceFactors& levels) const {
     return model_.local * model_.local * levels.local;
   }
 
@@ -175,20 +175,20 @@ class SharedErrors {
 
   /// A priori variances of the errors at a knot, m^2 and rad^2, sums of their components.
   using Variances = std::array<double, kPerKnot>;
-  Variances variances(const SharedErrorLevels& levels) const;
+  Variances variances(const VarianceFactors& levels) const;
 
   /// Information matrix of the prior, unknowns x unknowns, block by block (east north up pitch roll
   /// heading).
   Eigen::SparseMatrix<double> priorInformation(
-      const SharedErrorLevels& levels = SharedErrorLevels()) const;
+      const VarianceFactors& levels = VarianceFactors()) const;
   /// Logarithm of its determinant.
-  double priorLogDeterminant(const SharedErrorLevels& levels = SharedErrorLevels()) const;
+  double priorLogDeterminant(const VarianceFactors& levels = VarianceFactors()) const;
 
-  /// Variance components of the trajectory errors: SharedErrorLevels::values() without the last.
-  static constexpr int kTrajectoryComponents = SharedErrorLevels::kCount - 1;
+  /// Variance components of the trajectory errors: VarianceFactors::values() without the last.
+  static constexpr int kTrajectoryComponents = VarianceFactors::kCount - 1;
   /// The part of priorInformation() that is inversely proportional to each of them. The sum is
   /// priorInformation() without the instrument's.
-  std::vector<Eigen::SparseMatrix<double>> priorParts(const SharedErrorLevels& levels) const;
+  std::vector<Eigen::SparseMatrix<double>> priorParts(const VarianceFactors& levels) const;
   /// The number of independent variables of each component.
   Eigen::VectorXd priorVariables() const;
   /// The contributions of the components to the errors at the knots according to a solution:
@@ -221,18 +221,18 @@ class SharedErrors {
   void assembleGaussMarkov();
   /// A priori variance of the unknowns of a block: a knot's Gauss-Markov component, the instrument,
   /// a coefficient.
-  Variances shareOf(double share, const SharedErrorLevels::Trajectory& levels) const;
+  Variances shareOf(double share, const VarianceFactors::Trajectory& levels) const;
   struct PriorVariances {
     Variances gauss_markov, smooth, constant;
     std::array<double, kInstrumentBlocks * kPerKnot> instrument;
     std::vector<double> systems;  ///< of their blocks
   };
-  PriorVariances priorVariances(const SharedErrorLevels& levels) const;
+  PriorVariances priorVariances(const VarianceFactors& levels) const;
   /// Information of every unknown: of a Gauss-Markov component of its strip, and its own.
   struct PriorDiagonals {
     Eigen::VectorXd gauss_markov, own;
   };
-  PriorDiagonals priorDiagonals(const SharedErrorLevels& levels) const;
+  PriorDiagonals priorDiagonals(const VarianceFactors& levels) const;
 
   const StripKnots& passOf(int strip) const;
   std::vector<double> systemVariances() const;

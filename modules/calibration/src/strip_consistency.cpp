@@ -145,7 +145,7 @@ void StripConsistency::compareSessions(double alpha) {
                        : "; their heights agree with the others to " +
                              text("%.3f m", std::abs(found.difference)) +
                              ", but the mounting may have changed";
-    warnings_.push_back({warning, Remedy::strips});
+    warnings_.push_back({warning, Hint::strips});
   }
 }
 
@@ -167,7 +167,7 @@ void StripConsistency::compareHeights(double alpha) {
              " and less, after the calibration: a range bias or scale, or another session; control "
              "at "
              "both heights or a separate calibration of these strips separates these causes",
-         Remedy::strips});
+         Hint::strips});
   }
 }
 
@@ -182,7 +182,7 @@ void StripConsistency::compareStrips(double alpha) {
                              " the others after the calibration, more than the scatter of the "
                              "strips explains" +
                              kAdvice,
-                         Remedy::strips});
+                         Hint::strips});
   }
 }
 

@@ -15,7 +15,7 @@ constexpr double kCorrelationSpacing = 0.25;
 }  // namespace
 
 StripCovariance::StripCovariance(
-    const SharedErrors& errors, const SharedErrorLevels& levels, InverseEntries inverse,
+    const SharedErrors& errors, const VarianceFactors& levels, InverseEntries inverse,
     Eigen::Matrix<double, Eigen::Dynamic, kSystemParameterCount> elimination,
     const SystemMatrix& parameters)
     : errors_(errors),

@@ -26,8 +26,7 @@ class StripCovariance {
   /// \param inverse of N_tt
   /// \param elimination E, a row for each unknown
   /// \param parameters C; m, rad, 1
-  StripCovariance(const SharedErrors& errors, const SharedErrorLevels& levels,
-                  InverseEntries inverse,
+  StripCovariance(const SharedErrors& errors, const VarianceFactors& levels, InverseEntries inverse,
                   Eigen::Matrix<double, Eigen::Dynamic, kSystemParameterCount> elimination,
                   const SystemMatrix& parameters);
 
@@ -45,7 +44,7 @@ class StripCovariance {
 
  private:
   const SharedErrors& errors_;
-  SharedErrorLevels levels_;
+  VarianceFactors levels_;
   InverseEntries inverse_;
   Eigen::Matrix<double, Eigen::Dynamic, kSystemParameterCount> elimination_;
   SystemMatrix parameters_;

@@ -126,7 +126,7 @@ void assessNeed(bool corrections_are_large, CalibrationResult& result) {
       " as delivered, " + sizeText(after, false) + " with the biases, " + sizeText(strips, false) +
       " with strip corrections): the remaining misfit is not the effect of system biases";
   result.warnings.push_back(text);
-  if (corrections_are_large) result.verdict.object(CalibrationStatus::parameters_affected, text);
+  if (corrections_are_large) result.verdict.downgrade(CalibrationStatus::parameters_affected, text);
 }
 
 }  // namespace
@@ -192,7 +192,7 @@ void warnOfCorrections(const std::vector<StripErrorSize>& large, const std::stri
     return;
   }
   for (std::size_t i = 0; i < std::min(kListed, large.size()); ++i)
-    result.warnings.push_back({describe(large[i], reconstructed), Remedy::flight_sigmas});
+    result.warnings.push_back({describe(large[i], reconstructed), Hint::flight_sigmas});
   if (large.size() > kListed)
     result.warnings.push_back(std::to_string(large.size() - kListed) +
                               " further trajectory corrections exceed three a priori standard "
@@ -211,7 +211,7 @@ void assessStripErrors(const CalibrationSettings& settings, const std::vector<Pr
   const std::string affected = affectedText(effects, result);
   if (!affected.empty()) result.warnings.push_back(affected);
   if (!affected.empty() && large.front().ratio() > kContradictingCorrection) {
-    result.verdict.object(
+    result.verdict.downgrade(
         CalibrationStatus::parameters_affected,
         (cause.empty() ? describe(large.front(), reconstructed) : describeWithCause(large, cause)) +
             "; " + affected);
@@ -255,7 +255,7 @@ void assessHeight(const HeightError& error, const CalibrationSettings& settings,
       settings.reconstructed_height_std ? "the reconstructed trajectory" : "the trajectory";
   if (error.kind == HeightError::Kind::none) return;
   const bool certain = isCertain(error);
-  if (certain) result.verdict.object(CalibrationStatus::parameters_affected, error.text);
+  if (certain) result.verdict.downgrade(CalibrationStatus::parameters_affected, error.text);
   std::string names;
   for (const auto& [parameter, change] : heightEffects(error, result)) {
     ParameterEstimate& p = result[parameter];

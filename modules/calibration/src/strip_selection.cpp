@@ -11,10 +11,10 @@
 namespace pcl_als {
 namespace {
 
-void leaveOut(int strip, LeftOutReason reason, const SurveyMap& map, StripSelection& selection) {
+void leaveOut(int strip, ExclusionReason reason, const SurveyMap& map, StripSelection& selection) {
   const auto index = static_cast<std::size_t>(strip);
   selection.strips.used[index] = false;
-  selection.left_out.push_back(
+  selection.excluded.push_back(
       {selection.strips.ids[index], reason, map.pointCount(strip), map.pointCount(strip)});
 }
 
@@ -40,7 +40,7 @@ void leaveOutSmall(const SurveyMap& map, std::size_t fewest, StripSelection& sel
           "strip " + id + ": " + std::to_string(map.invalidCount(strip)) +
           " points with a time or coordinate that is not finite were ignored");
     if (count >= fewest || !strips.isFlown(strip)) continue;
-    leaveOut(strip, LeftOutReason::too_few_points, map, selection);
+    leaveOut(strip, ExclusionReason::too_few_points, map, selection);
     selection.warnings.push_back("strip " + id + " has only " + std::to_string(count) +
                                  " points and is left out");
   }
@@ -54,14 +54,15 @@ void leaveOutRoundedTimes(const BlockIndex& index, double position_std, StripSel
   for (int strip = 0; strip < static_cast<int>(strips.size()); ++strip) {
     // Rounding errors are uniformly distributed within a step.
     const double std = index.plausibility().distancePerStep(strip) / std::sqrt(12.0);
-    if (!strips.used[static_cast<std::size_t>(strip)] || strips.isHeld(strip) || std < position_std)
+    if (!strips.used[static_cast<std::size_t>(strip)] || strips.isFixed(strip) ||
+        std < position_std)
       continue;
     char along[80];
     std::snprintf(along, sizeof along, "standard deviation along the flight %.3g m", std);
     last = "strip " + strips.ids[static_cast<std::size_t>(strip)] +
            ": its GPS times are rounded to " + index.plausibility().timeSteps(strip) + ", " +
            along + "; lever_arm_y and boresight_pitch would be wrong";
-    leaveOut(strip, LeftOutReason::rounded_times, index.map(), selection);
+    leaveOut(strip, ExclusionReason::rounded_times, index.map(), selection);
     selection.warnings.push_back(last +
                                  ": the strip is left out; give files with the original times");
   }
@@ -133,7 +134,7 @@ std::vector<StripPair> choosePairs(const BlockStrips& strips, const SurveyMap& m
     if (!strips.used[static_cast<std::size_t>(first)] ||
         !strips.used[static_cast<std::size_t>(second)])
       continue;
-    const bool a = strips.isHeld(first), b = strips.isHeld(second);
+    const bool a = strips.isFixed(first), b = strips.isFixed(second);
     if (a && b) continue;
     if (a || b || wanted.empty() || is_in(wanted, overlap.strips)) pairs.push_back(overlap.strips);
   }

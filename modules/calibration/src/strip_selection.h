@@ -11,7 +11,7 @@ namespace pcl_als {
 /// Strips of which some are left out, with the reasons.
 struct StripSelection {
   BlockStrips strips;
-  std::vector<LeftOutPoints> left_out;
+  std::vector<ExcludedPoints> excluded;
   Warnings warnings;
 };
 

@@ -14,7 +14,7 @@
 #include <pcl_als/io/new_las_file.h>
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/io/trajectory_accuracy.h>
-#include <pcl_als/survey/place_in_block.h>
+#include <pcl_als/survey/offset_from_block.h>
 
 #include "block_advice.h"
 #include "block_calibration.h"
@@ -26,10 +26,10 @@ using StripNames = std::vector<std::pair<std::string, std::string>>;
 
 /// The label of a strip that has no usable points; null for a strip in use and for unknown names,
 /// which the calibration lists.
-const StripArrangement::Label* labelOfMissing(const SurveyReader& survey, const std::string& name) {
+const StripAssignment::Label* labelOfMissing(const SurveyReader& survey, const std::string& name) {
   const std::vector<std::string>& strips = survey.strips();
   if (std::find(strips.begin(), strips.end(), name) != strips.end()) return nullptr;
-  for (const StripArrangement::Label& label : survey.arrangement().labels()) {
+  for (const StripAssignment::Label& label : survey.arrangement().labels()) {
     if (label.strip == name) return &label;
   }
   return nullptr;
@@ -39,15 +39,15 @@ const StripArrangement::Label* labelOfMissing(const SurveyReader& survey, const 
 StripNames usablePairs(const StripNames& pairs, const SurveyReader& survey, Warnings& warnings) {
   StripNames usable;
   for (const auto& [a, b] : pairs) {
-    const StripArrangement::Label* label = labelOfMissing(survey, a);
+    const StripAssignment::Label* label = labelOfMissing(survey, a);
     if (label == nullptr) label = labelOfMissing(survey, b);
     if (label == nullptr) {
       usable.emplace_back(a, b);
       continue;
     }
-    if (label->reason == LeftOutReason::excluded)
+    if (label->reason == ExclusionReason::excluded)
       throw UsageError("pairs: strip '" + label->strip + "' is left out of the strips in use",
-                       Remedy::strips);
+                       Hint::strips);
     warnings.push_back("pair " + a + ":" + b + " is left out with strip " + label->strip);
   }
   if (usable.empty() && !pairs.empty())
@@ -55,7 +55,7 @@ StripNames usablePairs(const StripNames& pairs, const SurveyReader& survey, Warn
   return usable;
 }
 
-std::string leftOutText(const std::vector<LeftOutPoints>& parts) {
+std::string leftOutText(const std::vector<ExcludedPoints>& parts) {
   std::string text;
   for (const std::string& part : describe(parts)) text += "; " + part;
   return text;
@@ -84,7 +84,7 @@ struct References {
   }
 };
 
-PlaceInBlock placeOf(const SurveyReader& survey, const PointFileInfo& reference) {
+OffsetFromBlock placeOf(const SurveyReader& survey, const PointFileInfo& reference) {
   return {{reference.minimum.head<2>().eval(), reference.maximum.head<2>().eval()},
           survey.extent()};
 }
@@ -95,7 +95,7 @@ void requirePlace(const SurveyReader& survey, const PointFileInfo& reference) {
   if (reference.point_count == 0 || placeOf(survey, reference).distance == 0.0) return;
   const std::string extension = lowerExtension(reference.path);
   const bool has_header = extension == ".las" || extension == ".laz";
-  const PlaceInBlock place =
+  const OffsetFromBlock place =
       placeOf(survey, has_header ? measureBox(reference.path).info : reference);
   if (place.distance == 0.0) return;
   throw InputError(reference.path.string() + ": lies " + place.text() +
@@ -118,7 +118,7 @@ std::vector<std::string> checkReferences(const SurveyReader& survey,
 
 struct IndexedBlock {
   SurveyBlock block;
-  std::vector<LeftOutPoints> left_out;  ///< by the reader
+  std::vector<ExcludedPoints> excluded;  ///< by the reader
 };
 
 /// First pass over all points.
@@ -138,16 +138,16 @@ IndexedBlock indexed(const SurveyReader& survey, const std::shared_ptr<const Tra
     add(strip, points, count);
     if (observer.points && !apart) observer.points(strip, points, count);
   };
-  std::vector<LeftOutPoints> left_out = survey.read(SurveyReader::asReturns(pass));
+  std::vector<ExcludedPoints> excluded = survey.read(SurveyReader::asReturns(pass));
   references.read(add);
   using Reading = SurveyReader::Reading;
   if (observer.points && apart)
     survey.read(SurveyReader::asReturns(observer.points), Reading::by(Reading::Share::first));
   shareIndex(survey.processes(), survey.stripShares(), index);
   try {
-    return {chooseAreas(std::move(index), request), left_out};
+    return {chooseAreas(std::move(index), request), excluded};
   } catch (const InputError& error) {
-    throw InputError(error.what() + leftOutText(left_out), error.remedy());
+    throw InputError(error.what() + leftOutText(excluded), error.hint());
   }
 }
 
@@ -181,7 +181,7 @@ SurveyCalibration calibrateBlock(const SurveyReader& survey,
                                  ProgressReport& progress) {
   const References references(survey, options.references);
   progress.begin("Surveying the block");
-  const auto [block, left_out] = indexed(survey, flight, request, references, options.observer);
+  const auto [block, excluded] = indexed(survey, flight, request, references, options.observer);
   progress.end(counted(block.pairs.size(), "overlapping pair") + ", " +
                counted(block.areas.size(), "area"));
   for (const std::string& text : block.flight.remarks) progress.remark(text);
@@ -191,8 +191,8 @@ SurveyCalibration calibrateBlock(const SurveyReader& survey,
   progress.end(grouped(sample.pointCount()) + " points");
   BlockCalibration calibration = adjusted(sample, progress);
   CalibrationResult& result = calibration.result;
-  result.left_out.insert(result.left_out.end(), left_out.begin(), left_out.end());
-  for (const LeftOutPoints& part : left_out) result.warnings.push_back(describe(part));
+  result.excluded.insert(result.excluded.end(), excluded.begin(), excluded.end());
+  for (const ExcludedPoints& part : excluded) result.warnings.push_back(describe(part));
   return {std::move(result), block.areas, std::move(calibration.information),
           block.flight.trajectory};
 }

@@ -51,7 +51,7 @@ double limitOf(int unknown, const DeterminationLimits& limits) {
 
 }  // namespace
 
-StripSystems stripSystems(const std::vector<StripGroup>& groups, const OwnUnknowns& own,
+StripSystems stripSystems(const std::vector<StripGroup>& groups, const PerSystemParameters& own,
                           const std::vector<std::string>& ids) {
   checkGroups(groups, ids);
   StripSystems systems;

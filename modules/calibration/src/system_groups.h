@@ -15,7 +15,7 @@ namespace pcl_als {
 
 /// The systems and passes of the strips \a ids. UsageError for a group without a strip, a strip in
 /// two groups, two groups of one name, and a strip that does not exist.
-StripSystems stripSystems(const std::vector<StripGroup>& groups, const OwnUnknowns& own,
+StripSystems stripSystems(const std::vector<StripGroup>& groups, const PerSystemParameters& own,
                           const std::vector<std::string>& ids);
 
 /// Differences of all systems to the first one according to a solution

@@ -12,7 +12,7 @@
 namespace pcl_als {
 namespace {
 
-constexpr int kComponents = SharedErrorLevels::kCount;
+constexpr int kComponents = VarianceFactors::kCount;
 using Vector = Eigen::Matrix<double, kComponents, 1>;
 using Matrix = Eigen::Matrix<double, kComponents, kComponents>;
 
@@ -29,14 +29,14 @@ Vector highest() {
       [](Eigen::Index k) { return (k % kKinds == 0 ? 4.0 : 10.0) * std::log(2.0); });
 }
 
-SharedErrorLevels levelsOf(const Vector& logarithms) {
+VarianceFactors levelsOf(const Vector& logarithms) {
   std::array<double, kComponents> values{};
   for (int k = 0; k < kComponents; ++k)
     values[static_cast<std::size_t>(k)] = std::exp(logarithms[k]);
-  return SharedErrorLevels::of(values);
+  return VarianceFactors::of(values);
 }
 
-Vector logarithmsOf(const SharedErrorLevels& levels) {
+Vector logarithmsOf(const VarianceFactors& levels) {
   Vector logarithms;
   const auto values = levels.values();
   for (int k = 0; k < kComponents; ++k)
@@ -151,7 +151,7 @@ double predictedChange(const Objective& at, const Vector& step) {
 /// minimum: a factor of exp(s^2 / 2). The most likely variance of an error that few strips show is
 /// smaller than the expected one, and so would the standard deviations of parameters be that rest
 /// on it.
-SharedErrorLevels expectedLevels(const Vector& minimum, const Objective& at) {
+VarianceFactors expectedLevels(const Vector& minimum, const Objective& at) {
   Vector logarithms = minimum;
   for (int k = 0; k < kComponents; ++k) {
     // The objective is -2 ln of the density.
@@ -166,7 +166,7 @@ SharedErrorLevels expectedLevels(const Vector& minimum, const Objective& at) {
 }  // namespace
 
 EstimatedLevels estimateLevels(Adjustment& adjustment, const std::vector<SystemParameter>& estimate,
-                               const SharedErrorLevels& start, double tolerance) {
+                               const VarianceFactors& start, double tolerance) {
   constexpr double kLargestRadius = 4.0;
   constexpr int kMostEvaluations = 40;
   Vector best = logarithmsOf(start);
@@ -186,7 +186,7 @@ EstimatedLevels estimateLevels(Adjustment& adjustment, const std::vector<SystemP
     at = there;
   }
   const EstimatedLevels estimated{levelsOf(best), expectedLevels(best, at)};
-  adjustment.setLevels(estimated.expected);
+  adjustment.setVarianceFactors(estimated.expected);
   return estimated;
 }
 

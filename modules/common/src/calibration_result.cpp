@@ -63,7 +63,8 @@ bool isOfAnotherFlight(const CalibrationResult& calibration, double from, double
   bool known = false;
   const auto contains = [&](double first, double last) {
     known = true;
-    return first - RecoveredAttitude::kReach <= to && from <= last + RecoveredAttitude::kReach;
+    return first - RecoveredAttitude::kMaximumExtrapolation <= to &&
+           from <= last + RecoveredAttitude::kMaximumExtrapolation;
   };
   for (const StripErrors& strip : calibration.strip_errors) {
     if (strip.knots.empty()) continue;

@@ -179,7 +179,7 @@ void heldTable(const CalibrationResult& result, std::ostream& out) {
          "|     std |\n"
       << "|----------------------|---------|------------|--------|-------------|---------|---------"
          "|---------|\n";
-  for (const HeldSurface& s : result.held) {
+  for (const FixedSurface& s : result.held) {
     out << "| " << std::left << std::setw(20) << s.name << std::right << " | " << std::setw(7)
         << s.correspondences << " | " << std::setprecision(4) << std::setw(10) << s.rms_before
         << " | " << std::setw(6) << s.rms_after << " | " << std::showpos << std::setw(11)
@@ -189,7 +189,7 @@ void heldTable(const CalibrationResult& result, std::ostream& out) {
     else
       out << '-' << std::noshowpos << " | " << std::setw(7) << '-' << " |\n";
   }
-  for (const HeldSurface& s : result.held) {
+  for (const FixedSurface& s : result.held) {
     if (!s.strips.empty())
       out << "\nStrips " << joined(s.strips) << " were held fixed and are not corrected.\n";
     if (!s.offset_determined && s.correspondences > 0)
@@ -236,12 +236,12 @@ void largeCorrectionList(const CalibrationResult& result, std::ostream& out) {
     out << ++number << ". " << describe(correction) << '\n';
 }
 
-/// The remedy of an error that is probably present, by name.
+/// The hint of an error that is probably present, by name.
 void remedies(const CalibrationResult& result, std::ostringstream& out) {
   for (const ErrorFinding& finding : result.diagnosis) {
     if (finding.probability <= 0.5 || !finding.determined) continue;
     out << "- " << finding.source
-        << (finding.probability > 0.9 ? ": " : " (possible, not certain): ") << finding.remedy
+        << (finding.probability > 0.9 ? ": " : " (possible, not certain): ") << finding.hint
         << (finding.corrected ? "; the correction of points removes it\n" : "\n");
   }
 }

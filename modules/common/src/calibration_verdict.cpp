@@ -34,7 +34,7 @@ std::optional<CalibrationStatus> calibrationStatusNamed(std::string_view name) {
   return std::nullopt;
 }
 
-void CalibrationVerdict::object(CalibrationStatus against, const std::string& why) {
+void CalibrationVerdict::downgrade(CalibrationStatus against, const std::string& why) {
   if (against == CalibrationStatus::usable) return;
   reason = usable() || reason.empty() ? why : reason + "; " + why;
   status = std::max(status, against);

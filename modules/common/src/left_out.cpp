@@ -8,27 +8,27 @@
 namespace pcl_als {
 namespace {
 
-const char* sentence(LeftOutReason reason) {
+const char* sentence(ExclusionReason reason) {
   switch (reason) {
-    case LeftOutReason::excluded:
+    case ExclusionReason::excluded:
       return "the strip was not chosen";
-    case LeftOutReason::zero_time:
+    case ExclusionReason::zero_time:
       return "their GPS time is 0";
-    case LeftOutReason::before_trajectory:
+    case ExclusionReason::before_trajectory:
       return "measured before the trajectory begins";
-    case LeftOutReason::after_trajectory:
+    case ExclusionReason::after_trajectory:
       return "measured after the trajectory ends";
-    case LeftOutReason::in_trajectory_gap:
+    case ExclusionReason::in_trajectory_gap:
       return "measured in a gap of the trajectory";
-    case LeftOutReason::strip_uncovered:
+    case ExclusionReason::strip_uncovered:
       return "the trajectory covers hardly anything of the strip";
-    case LeftOutReason::in_turn:
+    case ExclusionReason::in_turn:
       return "measured in a turn between strips";
-    case LeftOutReason::hovering:
+    case ExclusionReason::hovering:
       return "measured while the sensor hovered between strips";
-    case LeftOutReason::rounded_times:
+    case ExclusionReason::rounded_times:
       return "their GPS times are rounded";
-    case LeftOutReason::too_few_points:
+    case ExclusionReason::too_few_points:
       return "the strip has too few points";
   }
   return "";
@@ -36,33 +36,33 @@ const char* sentence(LeftOutReason reason) {
 
 }  // namespace
 
-std::string_view toString(LeftOutReason reason) {
+std::string_view toString(ExclusionReason reason) {
   switch (reason) {
-    case LeftOutReason::excluded:
+    case ExclusionReason::excluded:
       return "excluded";
-    case LeftOutReason::zero_time:
+    case ExclusionReason::zero_time:
       return "zero_time";
-    case LeftOutReason::before_trajectory:
+    case ExclusionReason::before_trajectory:
       return "before_trajectory";
-    case LeftOutReason::after_trajectory:
+    case ExclusionReason::after_trajectory:
       return "after_trajectory";
-    case LeftOutReason::in_trajectory_gap:
+    case ExclusionReason::in_trajectory_gap:
       return "in_trajectory_gap";
-    case LeftOutReason::strip_uncovered:
+    case ExclusionReason::strip_uncovered:
       return "strip_uncovered";
-    case LeftOutReason::in_turn:
+    case ExclusionReason::in_turn:
       return "in_turn";
-    case LeftOutReason::hovering:
+    case ExclusionReason::hovering:
       return "hovering";
-    case LeftOutReason::rounded_times:
+    case ExclusionReason::rounded_times:
       return "rounded_times";
-    case LeftOutReason::too_few_points:
+    case ExclusionReason::too_few_points:
       return "too_few_points";
   }
   return "";
 }
 
-std::string describe(const LeftOutPoints& part) {
+std::string describe(const ExcludedPoints& part) {
   const double percent =
       100.0 * static_cast<double>(part.points) / static_cast<double>(part.of > 0 ? part.of : 1);
   char share[40];
@@ -71,10 +71,10 @@ std::string describe(const LeftOutPoints& part) {
          counted(part.of, "point") + share + " left out: " + sentence(part.reason);
 }
 
-std::vector<std::string> describe(const std::vector<LeftOutPoints>& parts) {
+std::vector<std::string> describe(const std::vector<ExcludedPoints>& parts) {
   std::vector<std::string> lines;
   lines.reserve(parts.size());
-  for (const LeftOutPoints& part : parts) lines.push_back(describe(part));
+  for (const ExcludedPoints& part : parts) lines.push_back(describe(part));
   return lines;
 }
 

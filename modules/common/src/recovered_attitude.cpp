@@ -64,7 +64,7 @@ void RecoveredAttitude::addPasses(const RecoveredAttitude& other) {
 
 const RecoveredAttitude::Pass* RecoveredAttitude::passAt(double time) const {
   const auto found = std::find_if(passes_.begin(), passes_.end(), [time](const Pass& pass) {
-    return distanceTo(pass, time) <= kReach;
+    return distanceTo(pass, time) <= kMaximumExtrapolation;
   });
   return found == passes_.end() ? nullptr : &*found;
 }
@@ -74,7 +74,7 @@ PitchAndCrab RecoveredAttitude::at(double time) const {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Pass& pass : passes_) {
     const double distance = distanceTo(pass, time);
-    if (distance <= kReach) return interpolated(pass, time);
+    if (distance <= kMaximumExtrapolation) return interpolated(pass, time);
     if (distance < smallest) smallest = distance, nearest = &pass;
   }
   return nearest == nullptr ? PitchAndCrab() : interpolated(*nearest, time);

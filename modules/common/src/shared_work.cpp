@@ -42,32 +42,32 @@ void SharedItems::listOwn() {
 }
 
 std::string encodeFailure(const std::exception_ptr& failure) {
-  const auto encoded = [](FailureKind kind, const std::string& message, Remedy remedy) {
-    return ByteWriter().put(kind).put(remedy).put(message).take();
+  const auto encoded = [](FailureKind kind, const std::string& message, Hint hint) {
+    return ByteWriter().put(kind).put(hint).put(message).take();
   };
   try {
     std::rethrow_exception(failure);
   } catch (const UsageError& error) {
-    return encoded(FailureKind::usage, error.what(), error.remedy());
+    return encoded(FailureKind::usage, error.what(), error.hint());
   } catch (const InputError& error) {
-    return encoded(FailureKind::input, error.what(), error.remedy());
+    return encoded(FailureKind::input, error.what(), error.hint());
   } catch (const Cancelled& error) {
-    return encoded(FailureKind::cancelled, error.what(), error.remedy());
+    return encoded(FailureKind::cancelled, error.what(), error.hint());
   } catch (const std::bad_alloc&) {
-    return encoded(FailureKind::memory, "", Remedy::none);
+    return encoded(FailureKind::memory, "", Hint::none);
   } catch (const std::exception& error) {
-    return encoded(FailureKind::other, error.what(), Remedy::none);
+    return encoded(FailureKind::other, error.what(), Hint::none);
   }
 }
 
 void throwFailure(const std::string& bytes) {
   ByteReader in(bytes);
   const auto kind = in.take<FailureKind>();
-  const auto remedy = in.take<Remedy>();
+  const auto hint = in.take<Hint>();
   const auto message = in.take<std::string>();
-  if (kind == FailureKind::usage) throw UsageError(message, remedy);
-  if (kind == FailureKind::input) throw InputError(message, remedy);
-  if (kind == FailureKind::cancelled) throw Cancelled(message, remedy);
+  if (kind == FailureKind::usage) throw UsageError(message, hint);
+  if (kind == FailureKind::input) throw InputError(message, hint);
+  if (kind == FailureKind::cancelled) throw Cancelled(message, hint);
   if (kind == FailureKind::memory) throw std::bad_alloc();
   throw std::runtime_error(message);
 }

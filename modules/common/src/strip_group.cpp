@@ -29,11 +29,11 @@ std::vector<std::string_view> partsOf(std::string_view text) {
 
 /// The ids of "7" or "3-7"; an id that is no range of numbers is taken as it is.
 void addStrips(std::string_view part, std::vector<std::string>& strips) {
-  constexpr int kMost = 65536;  // point source ids
+  constexpr int kPointSourceIds = 65536;  // point source ids
   const std::size_t dash = part.find('-');
   const int first = dash == std::string_view::npos ? -1 : numberOf(part.substr(0, dash));
   const int last = dash == std::string_view::npos ? -1 : numberOf(part.substr(dash + 1));
-  if (first < 0 || last < first || last - first >= kMost) {
+  if (first < 0 || last < first || last - first >= kPointSourceIds) {
     strips.emplace_back(part);
     return;
   }
@@ -84,8 +84,8 @@ std::uint8_t channelOfValue(double value, const std::string& where) {
   throw InputError(where + " holds " + std::to_string(value) + ", which is no channel (0 to 255)");
 }
 
-OwnUnknowns ownUnknowns(std::string_view text) {
-  OwnUnknowns own{{}, false};
+PerSystemParameters ownUnknowns(std::string_view text) {
+  PerSystemParameters own{{}, false};
   for (const std::string_view part : partsOf(text)) {
     if (part == "offset") {
       own.offset = true;

@@ -15,7 +15,7 @@ SystemLookup::SystemLookup(const CalibrationResult& calibration) {
     for (const std::string& strip : systems[i].group.strips)
       system_[strip] = static_cast<std::uint8_t>(i);
   }
-  for (const HeldSurface& surface : calibration.held) {
+  for (const FixedSurface& surface : calibration.held) {
     for (const std::string& strip : surface.strips) system_[strip] = fixed_;
   }
   for (const auto& [strip, system] : system_) {

@@ -51,9 +51,9 @@ struct MapProjection::State {
 void MapProjection::State::inspect() {
   const CrsDescription description = describeCrs(crs);
   if (description.kind == CrsKind::unknown && description.name.empty())
-    throw InputError(nameOf(crs) + ": PROJ does not know it", Remedy::crs);
+    throw InputError(nameOf(crs) + ": PROJ does not know it", Hint::crs);
   if (description.kind != CrsKind::projected || !description.horizontal)
-    throw InputError(nameOf(crs) + ": is not a projected CRS", Remedy::crs);
+    throw InputError(nameOf(crs) + ": is not a projected CRS", Hint::crs);
   needs_geoid = openCrs(context.get(), crs).vertical != nullptr;
   metres.head<2>().setConstant(description.horizontal->metres);
   // Without a vertical axis PROJ hands the ellipsoidal height through, in metres.

@@ -187,9 +187,10 @@ Canvas drawPairs(const CalibrationResult& result, PictureSize size) {
   for (const PairFit& pair : result.pairs) {
     plot.rows.push_back({pair.a + " : " + pair.b, pair.rms_before, pair.rms_after});
   }
-  constexpr std::size_t kMost = 60;
-  if (plot.rows.size() > kMost) plot.title += " (the " + std::to_string(kMost) + " largest)";
-  plot.keepLargest(kMost);
+  constexpr std::size_t kMaximumBars = 60;
+  if (plot.rows.size() > kMaximumBars)
+    plot.title += " (the " + std::to_string(kMaximumBars) + " largest)";
+  plot.keepLargest(kMaximumBars);
   return drawBeforeAfter(plot, size);
 }
 

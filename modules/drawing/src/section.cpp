@@ -103,7 +103,7 @@ void SectionPicture::addPanel(std::string caption, const SectionPoints& points) 
 }
 
 std::pair<double, double> SectionPicture::heightRange() const {
-  constexpr double kMost = 0.9;              // share of the points that the axis has to show
+  constexpr double kShownShare = 0.9;        // share of the points that the axis has to show
   constexpr double kCompressed = 1.0 / 3.0;  // of the whole range: beyond are outliers
   constexpr double kRim = 0.25;              // of their range, on both sides
   std::vector<double> heights;
@@ -115,7 +115,7 @@ std::pair<double, double> SectionPicture::heightRange() const {
   std::sort(heights.begin(), heights.end());
   const double low = heights.front(), high = heights.back();
   const auto most =
-      static_cast<std::size_t>(std::ceil(kMost * static_cast<double>(heights.size())));
+      static_cast<std::size_t>(std::ceil(kShownShare * static_cast<double>(heights.size())));
   std::size_t narrowest = 0;
   for (std::size_t i = 0; i + most <= heights.size(); ++i) {
     if (heights[i + most - 1] - heights[i] < heights[narrowest + most - 1] - heights[narrowest])

@@ -23,7 +23,7 @@ constexpr double kFaceArea = 12.0;        // m2: so large a face may have fewer,
 constexpr double kSharp = 0.25;           // m: how far the surface may lie below the sharp ridge
 constexpr double kAboveGround = 1.5;      // m: height of a roof's face above the ground beside it
 constexpr double kEaves = 12.0;           // m: within which the ground beside a roof is searched
-constexpr double kApart = 25.0;           // m, between places
+constexpr double kMinimumSpacing = 25.0;  // m, between places
 
 /// Rank of a place: the misfit, with a constant for slopes without one, and the number of strips.
 double rankOf(const SectionSearch::Place& place) {
@@ -213,7 +213,7 @@ std::vector<SectionSearch::Place> SectionSearch::find(std::size_t most) const {
     if (chosen.size() >= most) break;
     const auto near = [&](const Place& other) {
       return (0.5 * (place.line.from + place.line.to) - 0.5 * (other.line.from + other.line.to))
-                 .norm() < kApart;
+                 .norm() < kMinimumSpacing;
     };
     if (std::none_of(chosen.begin(), chosen.end(), near)) chosen.push_back(place);
   }

@@ -56,7 +56,7 @@ struct IntegerBiasCorrection::Tile {
   IntegerColumn raw[3];
   Column time, x, y, z, change[3];
   std::array<float, kTile> intensity;
-  std::array<std::int8_t, kTile> turning;
+  std::array<std::int8_t, kTile> scan_direction;
   std::array<std::uint16_t, kTile> source;
   std::array<std::uint8_t, kTile> channel;
 };
@@ -91,7 +91,7 @@ void IntegerBiasCorrection::gather(const std::byte* records, std::size_t count, 
     tile.time[i] = fields.timeOf(record);
     tile.intensity[i] = fields.intensityOf(record);
     tile.source[i] = fields.sourceOf(record);
-    tile.turning[i] = fields.scanDirectionOf(record) ? -1 : 1;
+    tile.scan_direction[i] = fields.scanDirectionOf(record) ? -1 : 1;
   }
   const auto& [scale, offset] = layout_.metres;
   toMetres(tile.raw[0], scale.x(), offset.x(), tile.x, count);
@@ -135,7 +135,7 @@ CoverageCount IntegerBiasCorrection::apply(std::byte* records, std::size_t count
   const PointColumns points{
       tile.time.data(),      tile.x.data(),
       tile.y.data(),         tile.z.data(),
-      tile.intensity.data(), tile.turning.data(),
+      tile.intensity.data(), tile.scan_direction.data(),
       tile.source.data(),    layout_.channel.recorded() ? tile.channel.data() : nullptr};
   const EffectColumns change{tile.change[0].data(), tile.change[1].data(), tile.change[2].data()};
   for (std::size_t at = 0; at < count; at += kTile) {

@@ -22,7 +22,7 @@ void requireSameSystem(const std::vector<CalibrationResult>& used,
         calibration.system_name != other.system_name)
       throw InputError(name + ": is of the instrument " + calibration.system_name +
                            ", others are of " + other.system_name + "; a history is of one",
-                       Remedy::system_name);
+                       Hint::system_name);
 }
 
 /// Sets date and covariates from the row of a calibration file.

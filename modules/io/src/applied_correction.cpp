@@ -126,7 +126,7 @@ std::string calibrationId(const CalibrationResult& calibration) {
        << calibration.sources.transpose() << ' ' << calibration.channel_field << '\n';
   for (const SystemEstimate& system : calibration.systems)
     text << system.group.name << ' ' << system.values().transpose() << '\n';
-  for (const HeldSurface& held : calibration.held)
+  for (const FixedSurface& held : calibration.held)
     for (const std::string& strip : held.strips) text << strip << '\n';
   for (const StripErrors& strip : calibration.strip_errors) {
     text << strip.id << '\n';

@@ -154,7 +154,7 @@ CalibrationVerdict verdictOf(const Node& instrument, const Node& report) {
     verdict.status = *known;
     verdict.reason = instrument["verdict"]["reason"].text();
   } else if (report.has("converged") && !report["converged"].truth()) {
-    verdict.object(CalibrationStatus::not_converged, "the adjustment did not converge");
+    verdict.downgrade(CalibrationStatus::not_converged, "the adjustment did not converge");
   }
   return verdict;
 }
@@ -200,7 +200,7 @@ void readControlPoints(const Node& points, CalibrationResult& result) {
 
 void readHeld(const Node& held, CalibrationResult& result) {
   for (const Node& node : held.items()) {
-    HeldSurface& surface = result.held.emplace_back();
+    FixedSurface& surface = result.held.emplace_back();
     surface.name = node["name"].text();
     surface.strips = textsOf(node["strips"]);
     surface.std = node["std_m"].numberOrNan();
@@ -260,7 +260,7 @@ Eigen::Vector3d vectorOf(const Node& node) {
 }
 
 void readSystems(const Node& systems, CalibrationResult& result) {
-  constexpr std::size_t kMost = 255;
+  constexpr std::size_t kMaximumChannel = 255;
   constexpr double kLargestOffset = 100.0;  // metres
   for (const Node& node : systems.items()) {
     SystemEstimate& system = result.systems.emplace_back();
@@ -279,7 +279,7 @@ void readSystems(const Node& systems, CalibrationResult& result) {
       node["offset_m"].refuse("must be numbers of less than 100 m");
     system.offset_std = vectorOf(node["offset_std_m"]);
   }
-  if (result.systems.size() > kMost) systems.refuse("must be at most 255");
+  if (result.systems.size() > kMaximumChannel) systems.refuse("must be at most 255");
 }
 
 /// The version of a file that can be read.
@@ -321,7 +321,7 @@ void readInstrument(const Node& part, CalibrationResult& result) {
   readErrorLevels(part, result);
 }
 
-void readFlight(const Node& part, CalibrationResult& result) {
+void loadTrajectory(const Node& part, CalibrationResult& result) {
   if (part.has("date")) {
     result.day = daysOfGps(part["date"].text(), "ymd");
     if (!result.day) part["date"].refuse("is no date such as 2026-05-04");
@@ -371,7 +371,7 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   CalibrationResult result;
   readInstrument(instrument, result);
   result.verdict = verdictOf(instrument, report);
-  readFlight(part("flight"), result);
+  loadTrajectory(part("flight"), result);
   readReport(report, result);
   if (root.has("crs")) result.crs = root["crs"].text();
   if (root.has("inputs")) result.inputs = textsOf(root["inputs"]);

@@ -169,7 +169,7 @@ Json stripOffsetsOf(const CalibrationResult& result) {
 
 Json heldOf(const CalibrationResult& result) {
   Json held = Json::array();
-  for (const HeldSurface& surface : result.held) {
+  for (const FixedSurface& surface : result.held) {
     held.push_back(Json{{"name", surface.name},
                         {"strips", surface.strips},
                         {"std_m", number(surface.std)},
@@ -216,7 +216,7 @@ Json controlOf(const CalibrationResult& result) {
 
 Json leftOutOf(const CalibrationResult& result) {
   Json parts = Json::array();
-  for (const LeftOutPoints& part : result.left_out) {
+  for (const ExcludedPoints& part : result.excluded) {
     parts.push_back(Json{{"strip", part.strip},
                          {"reason", toString(part.reason)},
                          {"points", part.points},

@@ -36,7 +36,7 @@ class CsvTable {
     /// Names given by the caller: lines before the first numbers are skipped.
     std::vector<std::string> columns;
     /// What a caller may set where the file has no header.
-    Remedy no_header = Remedy::none;
+    Hint no_header = Hint::none;
   };
   /// The same with a header that stands below other lines, maybe as a comment, and a line of units
   /// below it. Columns may repeat a name. Fields of degrees, minutes and seconds are one field.
@@ -95,7 +95,7 @@ class CsvTable {
   std::string name_, content_;
   std::string_view rest_;
   std::size_t line_ = 0;
-  Remedy no_header_ = Remedy::none;
+  Hint no_header_ = Hint::none;
   char separator_ = ',';
   std::vector<std::string> columns_;
   std::vector<std::string_view> header_;

@@ -72,7 +72,7 @@ void writeDiagnosis(const CalibrationResult& result, Json& part) {
                             {"determined", f.determined},
                             {"corrected", f.corrected},
                             {"evidence", f.evidence},
-                            {"remedy", f.remedy}});
+                            {"remedy", f.hint}});
   }
   part["diagnosis"] = std::move(findings);
   if (result.scan_angle_curve.empty()) return;
@@ -124,7 +124,7 @@ void readDiagnosis(const JsonNode& part, CalibrationResult& result) {
     f.determined = node["determined"].truth();
     f.corrected = node["corrected"].truth();
     f.evidence = node["evidence"].text();
-    f.remedy = node["remedy"].text();
+    f.hint = node["remedy"].text();
     result.diagnosis.push_back(std::move(f));
   }
 }

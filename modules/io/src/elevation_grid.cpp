@@ -85,9 +85,9 @@ double need(const Words& words, const Header& header, const char* key) {
 }
 
 std::size_t countOf(const Words& words, const Header& header, const char* key) {
-  constexpr double kMost = 1e6;
+  constexpr double kMaximumHeight = 1e6;
   const double value = need(words, header, key);
-  if (value >= 2.0 && value <= kMost && value == std::floor(value)) {
+  if (value >= 2.0 && value <= kMaximumHeight && value == std::floor(value)) {
     return static_cast<std::size_t>(value);
   }
   words.refuse("'" + std::string(key) + "' must be a whole number from 2 to 1000000");

@@ -180,11 +180,11 @@ void PcdFile::checkFields() const {
 
 /// What the first points show of VIEWPOINT and times.
 void PcdFile::readFirst() {
-  constexpr std::size_t kEnough = 4096;
+  constexpr std::size_t kSampledPoints = 4096;
   constexpr double kFarthestSensor = 1e4;  // metres from the origin of a local system, in plan
   rewind();
   PointChunk chunk;
-  while (chunk.size() == 0 && read(kEnough, chunk)) {
+  while (chunk.size() == 0 && read(kSampledPoints, chunk)) {
   }
   const Block block{header_, buffer_.data(), buffer_.size() / header_.record_length, file_.name()};
   times_are_averages_ = 2 * block.countNoTimes() > block.count;

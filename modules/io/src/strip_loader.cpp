@@ -18,9 +18,9 @@
 namespace pcl_als {
 namespace {
 
-// The corner of a square is 3.54 km from its centre, within LocalFrame::kReach.
+// The corner of a square is 3.54 km from its centre, within LocalFrame::kMaximumExtent.
 constexpr double kSquare = 5000.0;
-static_assert(kSquare * 0.7072 < LocalFrame::kReach);
+static_assert(kSquare * 0.7072 < LocalFrame::kMaximumExtent);
 
 /// A part of a strip while it is filled.
 class PartBuilder {
@@ -93,7 +93,7 @@ class StripBuilder {
   void begin(const std::string& id, const std::string& crs) {
     id_ = id;
     crs_ = crs;
-    whole_ = 0.5 * (high_ - low_).head<2>().norm() < LocalFrame::kReach - 10.0;
+    whole_ = 0.5 * (high_ - low_).head<2>().norm() < LocalFrame::kMaximumExtent - 10.0;
     if (whole_) newPart({0, 0}, 0.5 * (low_ + high_)).reserve(points_);
   }
 

@@ -39,7 +39,7 @@ TrajectoryRecords readOrRecognise(const std::filesystem::path& path,
   throw InputError(path.string() +
                        ": holds the standard deviations of a trajectory, not its positions: give "
                        "the trajectory itself as the trajectory",
-                   Remedy::accuracy);
+                   Hint::accuracy);
 }
 
 }  // namespace

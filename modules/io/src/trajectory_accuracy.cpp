@@ -22,7 +22,7 @@ namespace {
 
 using AccuracyRecord = std::array<double, 10>;
 constexpr double kRadiansPerArcmin = kRadiansPerDegree / 60.0;
-constexpr double kReach = 1.0;  // seconds: smrmsg files have one record a second
+constexpr double kMaximumTimeDifference = 1.0;  // seconds: smrmsg files have one record a second
 
 /// Root mean square of the values that are known.
 class MeanSquare {
@@ -78,10 +78,11 @@ TrajectoryAccuracy accuracyAt(const std::vector<TrajectoryAccuracy>& accuracies,
   const TrajectoryAccuracy& b = after == accuracies.end() ? accuracies.back() : *after;
   const TrajectoryAccuracy& a = after == accuracies.begin() ? b : *(after - 1);
   const double from_a = std::abs(time - a.time), to_b = std::abs(b.time - time);
-  if (std::min(from_a, to_b) > kReach) return result;
+  if (std::min(from_a, to_b) > kMaximumTimeDifference) return result;
   const double step = b.time - a.time;
   double share = step > 0.0 ? from_a / step : 0.0;
-  if (step > 2.0 * kReach) share = from_a < to_b ? 0.0 : 1.0;  // a gap of the records
+  if (step > 2.0 * kMaximumTimeDifference)
+    share = from_a < to_b ? 0.0 : 1.0;  // a gap of the records
   result.position = a.position + share * (b.position - a.position);
   result.angles = a.angles + share * (b.angles - a.angles);
   return result;
@@ -94,7 +95,8 @@ AccuracySummary summarize(const std::vector<TrajectoryAccuracy>& accuracies,
   for (const TrajectoryAccuracy& a : accuracies) {
     const bool within =
         spans.empty() || std::any_of(spans.begin(), spans.end(), [&a](const TimeRange& span) {
-          return a.time >= span.first - kReach && a.time <= span.last + kReach;
+          return a.time >= span.first - kMaximumTimeDifference &&
+                 a.time <= span.last + kMaximumTimeDifference;
         });
     if (!within) continue;
     ++summary.records;

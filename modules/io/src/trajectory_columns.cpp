@@ -276,7 +276,7 @@ void TrajectoryColumns::refuseIncomplete(const CsvTable& table, TrajectoryQuanti
   const QuantityInfo& info = quantities()[static_cast<std::size_t>(missing)];
   throw InputError(table.at(table.lackOf(info.name) +
                             "; accepted names (in any case): " + listOf(info.accepted)),
-                   Remedy::columns);
+                   Hint::columns);
 }
 
 std::string TrajectoryColumns::describe() const {

@@ -54,7 +54,7 @@ class FrameChange {
           path.string() +
               ": the CRS of the points is needed for the direction of true north and for "
               "a grid of the geoid, such as EPSG:25832",
-          Remedy::crs);
+          Hint::crs);
     }
     geodetic_ = std::make_unique<MapProjection>(targetCrs());
   }
@@ -170,7 +170,7 @@ TrajectoryFile inPointFrame(TrajectoryRecords records, const std::filesystem::pa
     if (reading.crs.empty()) {
       throw UsageError(path.string() + ": " + what +
                            ", and the points name no CRS to project it to, such as EPSG:25832",
-                       Remedy::crs);
+                       Hint::crs);
     }
     if (!reading.unit.isMetre()) {
       throw UsageError(path.string() + ": " + what + " and metres; its unit is not " +

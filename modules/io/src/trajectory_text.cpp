@@ -33,7 +33,7 @@ class RecordReader {
       throw InputError(table.at("its times are UTC, which lags GPS time by leap seconds, and no "
                                 "GPS week or date says by "
                                 "how many (18 since 2017)"),
-                       Remedy::leap_seconds);
+                       Hint::leap_seconds);
     }
   }
 
@@ -140,7 +140,7 @@ class RecordReader {
 TrajectoryRecords readTextTrajectory(const std::filesystem::path& path,
                                      const TrajectoryReading& reading) {
   CsvTable table(path, {&TrajectoryColumns::recognise, &TrajectoryColumns::isGeodetic,
-                        reading.columns, Remedy::columns});
+                        reading.columns, Hint::columns});
   const TrajectoryColumns columns(table, reading.angles, !reading.crs.empty());
   const RecordReader reader(table, columns, reading);
   TrajectoryRecords records;

@@ -74,10 +74,11 @@ unsigned TimeSequences<Coder, kCodesSame>::chooseMultiple(std::int64_t now) cons
   const std::int64_t step = difference(now, s.time);
   if (kCodesSame && step == 0) return kSame;
   if (!isShort(step)) return kNew + otherSequence(now);
-  const float times = std::max(kLeast - 1.0F, std::min(kMost + 1.0F, ratio(now, s.time, s.step)));
+  const float times =
+      std::max(kLeast - 1.0F, std::min(kLargestMultiple + 1.0F, ratio(now, s.time, s.step)));
   const int rounded = static_cast<int>(times >= 0.0F ? times + 0.5 : times - 0.5);
-  return static_cast<unsigned>(rounded >= 0 ? std::min(rounded, kMost)
-                                            : kMost - std::max(rounded, kLeast));
+  return static_cast<unsigned>(rounded >= 0 ? std::min(rounded, kLargestMultiple)
+                                            : kLargestMultiple - std::max(rounded, kLeast));
 }
 
 /// \return whether the time is known; else the sequence was changed.
@@ -122,18 +123,19 @@ bool TimeSequences<Coder, kCodesSame>::codeMultiple(Coder& coder, std::int64_t n
 template <class Coder, bool kCodesSame>
 void TimeSequences<Coder, kCodesSame>::codeStep(Coder& coder, std::int64_t now, unsigned symbol) {
   Sequence& s = sequences_[active_];
-  const std::int32_t multiple =
-      static_cast<std::int32_t>(symbol) <= kMost ? symbol : kMost - static_cast<int>(symbol);
+  const std::int32_t multiple = static_cast<std::int32_t>(symbol) <= kLargestMultiple
+                                    ? symbol
+                                    : kLargestMultiple - static_cast<int>(symbol);
   std::size_t context = 0;
   if (multiple == 1) context = 1;
-  if (multiple > 1) context = multiple < 10 ? 2 : multiple < kMost ? 3 : 4;
+  if (multiple > 1) context = multiple < 10 ? 2 : multiple < kLargestMultiple ? 3 : 4;
   if (multiple < 0) context = multiple > kLeast ? 5 : 6;
   if (multiple == 0) context = 7;
   const std::int32_t step =
       codedStep(steps_, coder, wrappedProduct(multiple, s.step), now, s.time, context);
   s.time = plus(s.time, step);
   if (multiple == 1) s.surprises = 0;
-  if ((multiple == 0 || multiple == kMost || multiple == kLeast) &&
+  if ((multiple == 0 || multiple == kLargestMultiple || multiple == kLeast) &&
       ++s.surprises > kMostSurprises) {
     s.step = step;
     s.surprises = 0;
@@ -193,14 +195,14 @@ template <class Coder>
 unsigned GpsTimeV1<Coder>::chooseMultiple(std::int64_t now) const {
   if (now == time_) return kSame;
   if (!isShort(difference(now, time_))) return kWhole;
-  const float times = std::max(0.0F, std::min(kMost + 1.0F, ratio(now, time_, step_)));
-  return std::min(kMost, static_cast<unsigned>(times + 0.5F));
+  const float times = std::max(0.0F, std::min(kLargestMultiple + 1.0F, ratio(now, time_, step_)));
+  return std::min(kLargestMultiple, static_cast<unsigned>(times + 0.5F));
 }
 
 template <class Coder>
 void GpsTimeV1<Coder>::codeMultiple(Coder& coder, std::int64_t now) {
   const unsigned symbol = coder.symbol(multiples_[0], Coder::kEncodes ? chooseMultiple(now) : 0U);
-  if (symbol <= kMost)
+  if (symbol <= kLargestMultiple)
     codeStep(coder, now, symbol);
   else if (symbol == kWhole)
     codeWhole(coder, now);
@@ -215,7 +217,7 @@ void GpsTimeV1<Coder>::codeStep(Coder& coder, std::int64_t now, unsigned multipl
       multiple == 0 ? step_ / 4 : wrappedProduct(static_cast<std::int32_t>(multiple), step_);
   const std::int32_t step = codedStep(steps_, coder, predicted, now, time_, context);
   time_ = plus(time_, step);
-  const bool surprise = multiple == 0 || multiple == kMost;
+  const bool surprise = multiple == 0 || multiple == kLargestMultiple;
   if (surprise) ++surprises_;
   if (multiple == 1 || (surprise && surprises_ > kMostSurprises)) {
     step_ = step;

@@ -26,7 +26,7 @@ class TimeSequences {
   // Symbols where the step before was zero, with kCodesSame; without, all are one less.
   enum First : unsigned { same_again = 0, short_step = 1, new_sequence = 2, other_sequence = 2 };
   // Symbols else: the multiple 0 … 500, 500 + m for -m of -1 … -10, and these.
-  static constexpr std::int32_t kMost = 500, kLeast = -10;
+  static constexpr std::int32_t kLargestMultiple = 500, kLeast = -10;
   static constexpr unsigned kSame = 511, kNew = 512;
 
   struct Sequence {
@@ -73,7 +73,7 @@ class GpsTimeV1 : public PointwiseItem<Coder> {
   void code(Coder& coder, typename Coder::Record item) override;
 
  private:
-  static constexpr unsigned kMost = 509, kWhole = 510, kSame = 511;
+  static constexpr unsigned kLargestMultiple = 509, kWhole = 510, kSame = 511;
 
   unsigned chooseMultiple(std::int64_t now) const;
   void codeFirst(Coder& coder, std::int64_t now);

@@ -140,10 +140,10 @@ bool mayBeDegrees(const LasFile& file) {
 /// Whether the points lie near the ellipsoid, seen from the centre of the Earth.
 bool mayBeGeocentric(const LasFile& file) {
   constexpr double kEquator = 6378137.0, kFlattening = 1.0 / 298.257;  // metres
-  constexpr double kReach = 2e4;  // metres: mountains, and areas of some hundred kilometres
+  constexpr double kMaximumHeight = 2e4;  // metres: mountains, and areas of some hundred kilometres
   const Eigen::Vector3d centre = boxOfSomePoints(file).center();
   const double distance = centre.norm(), sine = centre.z() / distance;
-  return std::abs(distance - kEquator * (1.0 - kFlattening * sine * sine)) < kReach;
+  return std::abs(distance - kEquator * (1.0 - kFlattening * sine * sine)) < kMaximumHeight;
 }
 
 /// Coordinates in steps of a micrometre with heights in steps of a millimetre are no lengths.

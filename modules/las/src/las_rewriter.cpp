@@ -12,8 +12,8 @@
 
 #include "las_extension.h"
 #include "las_output.h"
+#include "las_statistics.h"
 #include "las_tail.h"
-#include "las_tally.h"
 
 namespace pcl_als {
 namespace {

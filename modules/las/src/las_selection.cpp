@@ -7,8 +7,8 @@
 #include <pcl_als/las/las_selection.h>
 
 #include "las_output.h"
+#include "las_statistics.h"
 #include "las_tail.h"
-#include "las_tally.h"
 
 namespace pcl_als {
 namespace {
@@ -32,7 +32,7 @@ bool sameFields(const std::vector<LasExtraField>& a, const std::vector<LasExtraF
 struct LasSelectionWriter::State {
   const LasFile& like;
   LasHeader header;
-  detail::LasTally tally;
+  detail::LasStatistics counters;
   WaveformCopy waveforms;
   detail::LasOutput output;
 
@@ -51,18 +51,18 @@ LasSelectionWriter::~LasSelectionWriter() = default;
 
 void LasSelectionWriter::append(const std::byte* records, std::size_t count) {
   State& s = *state_;
-  s.tally.add(records, count, s.header.record_length, s.like.layout());
+  s.counters.add(records, count, s.header.record_length, s.like.layout());
   s.output.append(records, count);
 }
 
 std::uint64_t LasSelectionWriter::pointCount() const {
-  return state_->tally.points;
+  return state_->counters.points;
 }
 
 void LasSelectionWriter::finish() {
   State& s = *state_;
   detail::copyLasTail(s.like, s.output);
-  s.tally.store(s.header);
+  s.counters.store(s.header);
   s.output.putCounts(s.header);
   s.waveforms.prepare();
   s.waveforms.commit();

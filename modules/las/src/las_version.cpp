@@ -13,8 +13,8 @@
 
 #include "las_crs.h"
 #include "las_output.h"
+#include "las_statistics.h"
 #include "las_tail.h"
-#include "las_tally.h"
 
 namespace pcl_als {
 namespace {
@@ -193,7 +193,7 @@ LasRewriteResult convertLasVersion(const LasFile& input, const std::filesystem::
   RecordConverter converter(input, header);
   WaveformCopy waveforms(input, output);
   detail::LasOutput file(output, head, threads);
-  detail::LasTally tally;
+  detail::LasStatistics counters;
   std::vector<std::byte> from, to;
   const std::uint64_t points = input.header().point_count;
   for (std::uint64_t first = 0; first < points; first += kRecordsAtOnce) {
@@ -202,11 +202,11 @@ LasRewriteResult convertLasVersion(const LasFile& input, const std::filesystem::
     to.assign(count * header.record_length, std::byte{0});
     input.readRecords(first, count, from.data());
     converter.convert(from.data(), count, first, to.data());
-    tally.add(to.data(), count, header.record_length, converter.layout());
+    counters.add(to.data(), count, header.record_length, converter.layout());
     file.append(to.data(), count);
   }
   detail::copyLasTail(input, file);
-  tally.store(header);
+  counters.store(header);
   file.putCounts(header);
   waveforms.prepare();
   waveforms.commit();

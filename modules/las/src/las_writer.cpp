@@ -13,7 +13,7 @@
 
 #include "las_crs.h"
 #include "las_output.h"
-#include "las_tally.h"
+#include "las_statistics.h"
 
 namespace pcl_als {
 
@@ -23,7 +23,7 @@ struct LasWriter::State {
   LasRecordLayout layout;
   LinearUnits units;
   std::vector<LasExtraField> extra_fields;
-  detail::LasTally tally;
+  detail::LasStatistics counters;
   std::vector<std::byte> buffer;
   std::optional<detail::LasOutput> output;
 };
@@ -154,7 +154,7 @@ const std::vector<LasExtraField>& LasWriter::extraFields() const {
   return state_->extra_fields;
 }
 std::uint64_t LasWriter::pointCount() const {
-  return state_->tally.points;
+  return state_->counters.points;
 }
 
 void LasWriter::append(const PointChunk& chunk,
@@ -167,7 +167,8 @@ void LasWriter::append(const PointChunk& chunk,
   s.buffer.resize(chunk.size() * length);
   const Eigen::Vector3d metres = s.units.metres();
   encodeLasRecords(chunk, length, s.layout, s.header.scale.cwiseProduct(metres),
-                   s.header.offset.cwiseProduct(metres), s.tally.points, s.name, s.buffer.data());
+                   s.header.offset.cwiseProduct(metres), s.counters.points, s.name,
+                   s.buffer.data());
   for (std::size_t k = 0; k < extra_columns.size(); ++k) {
     if (extra_columns[k].size() != chunk.size())
       throw UsageError(s.name + ": extra column " + s.extra_fields[k].name +
@@ -179,13 +180,13 @@ void LasWriter::append(const PointChunk& chunk,
 
 void LasWriter::appendRecords(const std::byte* records, std::size_t count) {
   State& s = *state_;
-  s.tally.add(records, count, s.header.record_length, s.layout);
+  s.counters.add(records, count, s.header.record_length, s.layout);
   s.output->append(records, count);
 }
 
 void LasWriter::finish() {
   State& s = *state_;
-  s.tally.store(s.header);
+  s.counters.store(s.header);
   s.output->endPoints();
   s.output->putCounts(s.header);
   s.output->commit();

@@ -7,7 +7,7 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/las/point_box.h>
 
-#include "las_tally.h"
+#include "las_statistics.h"
 
 namespace pcl_als {
 namespace {

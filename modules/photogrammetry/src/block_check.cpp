@@ -40,41 +40,41 @@ double angleBetween(const ImageMeasurement& place, const ImageOrientation& image
   return std::acos(std::clamp(ray.dot(to), -1.0, 1.0));
 }
 
-std::unordered_map<std::string, Tally> tallyOf(const ImageBlock& block) {
+std::unordered_map<std::string, Tally> statisticsOf(const ImageBlock& block) {
   std::unordered_map<std::string, const ImageOrientation*> images;
   std::unordered_map<std::string, const ObjectLine*> lines;
   for (const ImageOrientation& image : block.images) images[image.id] = &image;
   for (const ObjectLine& line : block.lines) lines[line.id] = &line;
-  std::unordered_map<std::string, Tally> tallies;
+  std::unordered_map<std::string, Tally> counters;
   for (const ImageMeasurement& m : block.measurements) {
     if (m.kind != ImageMeasurement::Kind::line) continue;
     const auto image = images.find(m.image);
     const auto line = lines.find(m.feature);
     if (image == images.end() || line == lines.end()) continue;
-    Tally& tally = tallies[m.image];
-    ++tally.places;
+    Tally& counters = counters[m.image];
+    ++counters.places;
     const double angle = angleBetween(m, *image->second, *line->second, block.camera);
     if (angle <= kFarOff) continue;
-    if (tally.far++ > 0) continue;
-    tally.angle = angle;
-    tally.line = m.feature;
+    if (counters.far++ > 0) continue;
+    counters.angle = angle;
+    counters.line = m.feature;
   }
-  return tallies;
+  return counters;
 }
 
 }  // namespace
 
 void checkDirections(const ImageBlock& block) {
-  const auto tallies = tallyOf(block);
+  const auto counters = statisticsOf(block);
   std::size_t wrong = 0;
   const ImageOrientation* first = nullptr;
   for (const ImageOrientation& image : block.images) {
-    const auto tally = tallies.find(image.id);
-    if (tally == tallies.end() || 2 * tally->second.far <= tally->second.places) continue;
+    const auto counters = counters.find(image.id);
+    if (counters == counters.end() || 2 * counters->second.far <= counters->second.places) continue;
     if (wrong++ == 0) first = &image;
   }
   if (wrong == 0) return;
-  const Tally& tally = tallies.at(first->id);
+  const Tally& counters = counters.at(first->id);
   char text[360];
   std::snprintf(
       text, sizeof text,
@@ -82,8 +82,8 @@ void checkDirections(const ImageBlock& block) {
       "%s, line %s is %.0f degrees from where it was measured): position or angles "
       "(omega, phi, kappa in degrees) of the images, or the lines, are in another system "
       "or unit",
-      wrong, block.images.size(), first->id.c_str(), tally.line.c_str(),
-      tally.angle / kRadiansPerDegree);
+      wrong, block.images.size(), first->id.c_str(), counters.line.c_str(),
+      counters.angle / kRadiansPerDegree);
   throw InputError(text);
 }
 

@@ -114,14 +114,14 @@ std::vector<fs::path> stripPaths(const std::vector<fs::path>& inputs, const fs::
 }
 
 std::vector<std::uint16_t> lineNumbers(const std::vector<std::string>& strips) {
-  constexpr std::size_t kMost = 65'535;
-  if (strips.size() > kMost)
+  constexpr std::size_t kMaximumFiles = 65'535;
+  if (strips.size() > kMaximumFiles)
     throw InputError(counted(strips.size(), "strip") + ", and point source ids end at 65535");
   std::set<std::uint16_t> taken;
   std::vector<std::optional<std::uint16_t>> known(strips.size());
   for (std::size_t i = 0; i < strips.size(); ++i) {
     const bool digits = strips[i].find_first_not_of("0123456789") == std::string::npos;
-    if (!digits || strips[i].size() > 5 || std::stoul(strips[i]) > kMost) continue;
+    if (!digits || strips[i].size() > 5 || std::stoul(strips[i]) > kMaximumFiles) continue;
     known[i] = static_cast<std::uint16_t>(std::stoul(strips[i]));
     taken.insert(*known[i]);
   }

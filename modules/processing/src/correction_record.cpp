@@ -54,7 +54,7 @@ std::string recordWith(const std::string& record, const AppliedCorrection& corre
     if (isRepeated(earlier, correction) && !force)
       throw InputError(file + ": " + earlier.describe() +
                            " before; give the file as it was before that correction",
-                       Remedy::force);
+                       Hint::force);
     if (changesIntensity(earlier) == changesIntensity(correction))
       warnings.push_back(earlier.describe() + " before");
   }
@@ -62,7 +62,7 @@ std::string recordWith(const std::string& record, const AppliedCorrection& corre
   return correctionsRecord(corrections);
 }
 
-bool isHeldFixed(const std::filesystem::path& file, const CalibrationResult& calibration) {
+bool isFixedSurface(const std::filesystem::path& file, const CalibrationResult& calibration) {
   SystemLookup systems(calibration);
   if (calibration.held.empty() || systems.single()) return false;
   systems.setStrip(file.stem().string());
@@ -82,7 +82,7 @@ std::string describeBiases(const CalibrationResult& calibration) {
     text += (text.empty() ? "" : "; ") + system.group.name + ": " +
             detail::textOf(system.values().head<kSystemParameterCount>());
   if (text.empty()) text = detail::textOf(calibration.biases());
-  for (const HeldSurface& surface : calibration.held) {
+  for (const FixedSurface& surface : calibration.held) {
     for (const std::string& strip : surface.strips)
       text +=
           (&strip == &surface.strips.front() ? "; unchanged, because held fixed: strips " : ", ") +

@@ -25,6 +25,6 @@ std::string recordWith(const std::string& record, const AppliedCorrection& corre
 
 /// Whether all points of a file are of strips that the calibration held fixed, so that it changes
 /// none. The file is read only if there are such strips.
-bool isHeldFixed(const std::filesystem::path& file, const CalibrationResult& calibration);
+bool isFixedSurface(const std::filesystem::path& file, const CalibrationResult& calibration);
 
 }  // namespace pcl_als::detail

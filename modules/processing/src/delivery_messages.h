@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <pcl_als/common/shared_vectors.h>
-#include <pcl_als/processing/delivery_check.h>
+#include <pcl_als/processing/delivery_checker.h>
 
 namespace pcl_als {
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// The pairs of a BlockCheck: their assessment, and what is said of those that were not measured.
+// The pairs of a DeliveryChecker: their assessment, and what is said of those that were not
+// measured.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include <pcl_als/common/listed_names.h>
 #include <pcl_als/common/number_text.h>
-#include <pcl_als/processing/delivery_check.h>
+#include <pcl_als/processing/delivery_checker.h>
 
 #include "delivery_messages.h"
 
@@ -97,7 +98,7 @@ std::vector<std::string> unmeasuredPairs(const std::vector<CheckedPair>& pairs) 
 
 /// Names strips that are further apart than surfaces are compared. What was measured all the same
 /// is of different objects, whose differences fill the range that is compared.
-void BlockCheck::findDistance(std::size_t overlap, CheckedPair& pair) {
+void DeliveryChecker::findDistance(std::size_t overlap, CheckedPair& pair) {
   const double limit = settings_.limits.maximum_distance;
   const SurveyMap::HeightOffset height = map_.heightOffset(overlaps_[overlap].strips);
   if (!(std::abs(height.offset) > limit)) return;
@@ -107,7 +108,7 @@ void BlockCheck::findDistance(std::size_t overlap, CheckedPair& pair) {
       ", further than surfaces are compared: a height offset of one strip (unit or vertical "
       "datum of its heights, trajectory)";
   warnings_.push_back(
-      {"strips " + pair.a + " and " + pair.b + " overlap, but " + text, Remedy::max_distance});
+      {"strips " + pair.a + " and " + pair.b + " overlap, but " + text, Hint::max_distance});
   const bool scattered = found.vertical.nmad > kScattered * limit;
   if (found.status == PairAssessment::Status::copy ||
       (found.status == PairAssessment::Status::judged && !scattered))
@@ -118,7 +119,7 @@ void BlockCheck::findDistance(std::size_t overlap, CheckedPair& pair) {
   found.reason += (found.reason.empty() ? "" : "; ") + text;
 }
 
-CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
+CheckedPair DeliveryChecker::assessOverlap(std::size_t k, CellMeans& cells) {
   const Clock::time_point start = Clock::now();
   const auto& [a, b] = overlaps_[k].strips;
   CheckedPair pair;
@@ -150,8 +151,8 @@ CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
   return pair;
 }
 
-void BlockCheck::alignPairs(std::vector<CheckedPair>& pairs,
-                            const std::function<void(double)>& progress) {
+void DeliveryChecker::registerPairs(std::vector<CheckedPair>& pairs,
+                                    const std::function<void(double)>& progress) {
   PatchAlignmentSettings settings;
   settings.points = kAlignmentPoints;
   settings.pairs = kAlignmentPairs;
@@ -167,7 +168,7 @@ void BlockCheck::alignPairs(std::vector<CheckedPair>& pairs,
     for (const std::size_t k : shares.ownItems()) {
       const Clock::time_point start = Clock::now();
       const auto& [a, b] = overlaps_[k].strips;
-      if (isAligned(pairs[k])) pairs[k].alignment = alignStrips(offsets_, a, b, settings);
+      if (isAligned(pairs[k])) pairs[k].alignment = registerStrips(offsets_, a, b, settings);
       pairs[k].milliseconds += millisecondsSince(start);
       ++done;
       if (progress)

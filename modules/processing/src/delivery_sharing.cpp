@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// What the processes of a BlockCheck tell each other.
+// What the processes of a DeliveryChecker tell each other.
 #include <set>
 #include <tuple>
 
 #include <pcl_als/common/parallel.h>
-#include <pcl_als/processing/delivery_check.h>
+#include <pcl_als/processing/delivery_checker.h>
 
 #include "delivery_messages.h"
 
@@ -78,7 +78,7 @@ void shareAlignments(Communicator* processes, const SharedItems& items,
 
 }  // namespace detail
 
-void BlockCheck::shareStrips() {
+void DeliveryChecker::shareStrips() {
   strip_shares_ = survey_.stripShares();
   if (!areShared(survey_.processes())) return;
   std::vector<std::string> strips(courses_.size());
@@ -101,7 +101,7 @@ void BlockCheck::shareStrips() {
   }
 }
 
-void BlockCheck::shareAreas() {
+void DeliveryChecker::shareAreas() {
   Communicator* const processes = survey_.processes();
   const std::size_t targets = offsets_.size() + control_offsets_.size();
   std::vector<double> points(targets);
@@ -136,7 +136,7 @@ void BlockCheck::shareAreas() {
   receivePoints(sent);
 }
 
-void BlockCheck::receivePoints(std::vector<ByteWriter>& sent) {
+void DeliveryChecker::receivePoints(std::vector<ByteWriter>& sent) {
   std::vector<std::string> bytes;
   for (ByteWriter& out : sent) bytes.push_back(out.take());
   for (const std::string& received : survey_.processes()->exchange(bytes)) {
@@ -147,8 +147,8 @@ void BlockCheck::receivePoints(std::vector<ByteWriter>& sent) {
   }
 }
 
-void BlockCheck::forOwn(std::size_t first, std::size_t count,
-                        const std::function<void(std::size_t i)>& work) const {
+void DeliveryChecker::forOwn(std::size_t first, std::size_t count,
+                             const std::function<void(std::size_t i)>& work) const {
   std::vector<std::size_t> own;
   for (const std::size_t i : target_shares_.ownItems())
     if (i >= first && i < first + count) own.push_back(i);
@@ -157,7 +157,7 @@ void BlockCheck::forOwn(std::size_t first, std::size_t count,
   });
 }
 
-void BlockCheck::shareMeasurements(std::vector<std::vector<double>>& repeated) {
+void DeliveryChecker::shareMeasurements(std::vector<std::vector<double>>& repeated) {
   if (!areShared(survey_.processes())) return;
   std::vector<std::string> areas(target_shares_.count());
   for (const std::size_t i : target_shares_.ownItems()) {
@@ -177,7 +177,8 @@ void BlockCheck::shareMeasurements(std::vector<std::vector<double>>& repeated) {
   }
 }
 
-void BlockCheck::sharePairPoints(const std::vector<CheckedPair>& pairs, const SharedItems& shares) {
+void DeliveryChecker::sharePairPoints(const std::vector<CheckedPair>& pairs,
+                                      const SharedItems& shares) {
   Communicator* const processes = survey_.processes();
   if (!areShared(processes)) return;
   std::vector<ByteWriter> sent(static_cast<std::size_t>(processes->size()));

@@ -41,7 +41,7 @@ struct Job {
   FileCorrectionOptions options;
   ProgressReport& progress;
   TimeAlignment alignment{};
-  RecoveredAttitude further_attitude{};
+  RecoveredAttitude fallback_attitude{};
   bool of_another_flight = false;   ///< isOfAnotherFlight()
   bool attitude_recovered = false;  ///< from this file, with success or without
   bool level = false;               ///< the scanner is not linear, and options.force
@@ -56,7 +56,7 @@ SystemCorrection correctionOf(Job& job) {
   options.strip_corrections = job.options.strip_corrections;
   options.invert = job.options.invert;
   options.force = job.options.force;
-  options.further_attitude = job.further_attitude;
+  options.fallback_attitude = job.fallback_attitude;
   CalibrationResult nominal;
   if (job.level) {
     nominal = job.calibration;
@@ -77,10 +77,10 @@ void recoverAttitude(Job& job, const Points& points) {
   job.attitude_recovered = true;
   job.result.attitude_remark = outcome.remark;
   if (outcome.linear) {
-    job.further_attitude = std::move(outcome.attitude);
+    job.fallback_attitude = std::move(outcome.attitude);
     // Where nothing shows, the sensor counts as level.
-    if (job.further_attitude.empty()) {
-      job.further_attitude.addPass({{job.flight->startTime(), {}}, {job.flight->endTime(), {}}});
+    if (job.fallback_attitude.empty()) {
+      job.fallback_attitude.addPass({{job.flight->startTime(), {}}, {job.flight->endTime(), {}}});
     }
     return;
   }
@@ -88,7 +88,7 @@ void recoverAttitude(Job& job, const Points& points) {
     throw InputError(job.name() + ": " + outcome.remark +
                          ": give a trajectory with roll, pitch and heading, and biases that were "
                          "estimated with it",
-                     Remedy::force_level);
+                     Hint::force_level);
   }
   job.result.warnings.push_back("the sensor is taken as level with its heading along the course");
   job.level = true;
@@ -113,11 +113,11 @@ std::set<std::string> stripsWithoutErrors(const Job& job) {
 }
 
 std::string listed(const std::set<std::string>& names) {
-  constexpr std::size_t kMost = 20;
+  constexpr std::size_t kMaximumListed = 20;
   std::string text;
   std::size_t count = 0;
   for (const std::string& name : names) {
-    if (count++ == kMost) return text + " and further ones";
+    if (count++ == kMaximumListed) return text + " and further ones";
     text += (text.empty() ? "" : ", ") + name;
   }
   return text;
@@ -133,7 +133,7 @@ void checkStripErrors(Job& job, const CoverageCount& coverage) {
                            std::to_string(coverage.without_strip_errors) + " of " +
                            std::to_string(coverage.points) + " points, of strip " +
                            listed(stripsWithoutErrors(job)) + "; it has some for " + listed(known);
-  if (!job.options.force) throw InputError(job.name() + ": " + text, Remedy::force);
+  if (!job.options.force) throw InputError(job.name() + ": " + text, Hint::force);
   job.result.warnings.push_back(text);
 }
 
@@ -141,7 +141,7 @@ void checkStripErrors(Job& job, const CoverageCount& coverage) {
 void checkSizes(Job& job, const CoverageCount& coverage) {
   const std::string objection = coverage.sizes.objection();
   if (objection.empty()) return;
-  if (!job.options.force) throw InputError(job.name() + ": " + objection, Remedy::force);
+  if (!job.options.force) throw InputError(job.name() + ": " + objection, Hint::force);
   job.result.warnings.emplace_back(objection);
 }
 
@@ -153,7 +153,7 @@ void checkCoverage(Job& job, const CoverageCount& coverage) {
   const bool stay = job.options.keep_uncovered || fewUncovered(coverage.missed(), coverage.points);
   if (coverage.unsolved == 0 && stay) return;
   throw InputError(job.name() + ": " + coverage.describe(*job.flight),
-                   coverage.unsolved == 0 ? Remedy::keep_uncovered : Remedy::none);
+                   coverage.unsolved == 0 ? Hint::keep_uncovered : Hint::none);
 }
 
 /// Adds up what blocks report, from any thread.
@@ -192,10 +192,10 @@ bool rewrite(Job& job, const LasFile& file) {
   if (job.options.uncertainty)
     uncertainty = std::make_unique<detail::FileUncertainty>(file, correction, layout,
                                                             job.calibration, job.options);
-  Tally tally(file.header().point_count, job);
+  Tally counters(file.header().point_count, job);
   LasExtension extension = uncertainty ? uncertainty->extension() : LasExtension();
   extension.corrections = job.corrections;
-  extension.abandon = [&tally] { return tally.lacksAttitude(); };
+  extension.abandon = [&counters] { return counters.lacksAttitude(); };
   layout.record_length += 4 * extension.fields.size();
   const IntegerBiasCorrection engine(job.name(), correction, layout);
   const LasEdit edit = [&](const LasRecordBlock& block) {
@@ -203,13 +203,13 @@ bool rewrite(Job& job, const LasFile& file) {
     if (uncertainty) normals = uncertainty->normalsOf(block);
     const CoverageCount coverage = engine.apply(block.records, block.count, block.first);
     if (uncertainty) uncertainty->store(block, normals);
-    tally.add(coverage);
+    counters.add(coverage);
   };
   LasRewriteResult written = extendLas(file, job.output, extension, edit, job.options.threads);
   if (!written.complete) return false;
   job.result.points = written.points;
   job.result.copy_remarks = std::move(written.remarks);
-  job.result.coverage = tally.coverage();
+  job.result.coverage = counters.coverage();
   if (uncertainty) uncertainty->finish(job.result);
   return true;
 }
@@ -229,7 +229,7 @@ AppliedCorrection correctionMade(const Job& job) {
 /// Whether the job can change any point.
 bool changesPoints(const Job& job) {
   const CalibrationResult& calibration = job.calibration;
-  if (detail::isHeldFixed(job.input, calibration)) return false;
+  if (detail::isFixedSurface(job.input, calibration)) return false;
   const auto differs = [](const SystemEstimate& system) { return !system.values().isZero(0.0); };
   return job.options.strip_corrections || !calibration.biases().isZero(0.0) ||
          !calibration.sources.isZero(0.0) ||
@@ -261,7 +261,7 @@ void findFlight(Job& job) {
       isOfAnotherFlight(job.calibration, job.flight->startTime(), job.flight->endTime());
   if (!job.of_another_flight || !job.options.strip_corrections) return;
   const char* const text = "the calibration has no strip corrections for this flight";
-  if (!job.options.force) throw InputError(job.name() + ": " + text, Remedy::force);
+  if (!job.options.force) throw InputError(job.name() + ": " + text, Hint::force);
   job.result.warnings.emplace_back(text);
   job.options.strip_corrections = false;
 }

@@ -51,7 +51,7 @@ class FileUncertainty {
 
   std::unique_ptr<const IntensityInput> input_;
   std::vector<SurveyedFile> surveyed_;
-  std::optional<StripArrangement> arrangement_;
+  std::optional<StripAssignment> arrangement_;
   double radius_ = 2.0;  ///< metres, of the surfaces
   LasExtension extension_;
   std::size_t horizontal_at_ = 0, vertical_at_ = 0;

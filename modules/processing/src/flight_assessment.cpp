@@ -25,19 +25,18 @@ void compare(const SurveyReader& survey, const std::shared_ptr<const Trajectory>
       scanner.add(points[i]);
     }
   };
-  const std::vector<LeftOutPoints> left_out = survey.read(SurveyReader::asReturns(add));
+  const std::vector<ExcludedPoints> excluded = survey.read(SurveyReader::asReturns(add));
   for (std::size_t i = 0; i < scanners.size(); ++i) {
     assessment.scanners.push_back({survey.strips()[i], scanners[i].assess()});
     if (survey.pointsByStrip()[i] < kFewPoints) plausibility.leaveOut(static_cast<int>(i));
   }
-  for (const LeftOutPoints& part : left_out) {
-    if (part.reason != LeftOutReason::excluded) assessment.warnings.push_back(describe(part));
+  for (const ExcludedPoints& part : excluded) {
+    if (part.reason != ExclusionReason::excluded) assessment.warnings.push_back(describe(part));
   }
   for (const TrajectoryPlausibility::Finding& finding : plausibility.findings()) {
     const Warning& found = finding.warning;
     assessment.warnings.emplace_back(
-        finding.refuse ? "the trajectory would be refused: " + found.text : found.text,
-        found.remedy);
+        finding.refuse ? "the trajectory would be refused: " + found.text : found.text, found.hint);
   }
 }
 
@@ -50,17 +49,17 @@ FlightAssessment assessFlight(const std::vector<std::string>& files, const Point
   FlightAssessment assessment;
   try {
     SurveyReader survey(files, threads, window);
-    FlightFileOptions options;
+    TrajectoryLoadingOptions options;
     static_cast<TrajectoryReading&>(options) = reading;
     if (options.crs.empty()) options.crs = survey.reference().crs;
-    const FlightFile flight = readFlight(trajectory, options);
+    const LoadedTrajectory flight = loadTrajectory(trajectory, options);
     choice.divide_lines = true;
     assessment.notes = survey.choose(choice, {flight.trajectory.get(), std::nullopt, true});
     compare(survey, flight.trajectory, assessment);
   } catch (const Error& error) {
     assessment.warnings.emplace_back(
         std::string("the trajectory cannot be used with the points: ") + error.what(),
-        error.remedy());
+        error.hint());
   }
   return assessment;
 }

@@ -34,7 +34,7 @@ class FlightCheck {
     try {
       return check_.check(force);
     } catch (const InputError& error) {
-      throw InputError(name + ": " + error.what(), error.remedy());
+      throw InputError(name + ": " + error.what(), error.hint());
     }
   }
 

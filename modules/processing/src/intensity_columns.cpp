@@ -84,7 +84,7 @@ RangeOnlyCorrection::RangeOnlyCorrection(const IntensityRun& run, std::size_t fi
       run_(run),
       file_(file),
       original_at_(original_at) {
-  StripArrangement::Sorter sorter(run.arrangement(), file);
+  StripAssignment::Assigner sorter(run.arrangement(), file);
   for (const PointSource& source : run.sources(file).sources) {
     const std::size_t label = sorter.label(source.id, source.first_time);
     sources_[source.id] = {run.gain(run.arrangement().labels()[label].index), label};

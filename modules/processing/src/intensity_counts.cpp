@@ -31,27 +31,27 @@ void IntensityCounts::get(ByteReader& in) {
   uncovered.clear();
   for (auto left = in.take<std::size_t>(); left > 0; --left) {
     const auto label = in.take<std::size_t>();
-    const auto reason = in.take<LeftOutReason>();
+    const auto reason = in.take<ExclusionReason>();
     in.get(uncovered[{label, reason}]);
   }
 }
 
-LeftOutReason IntensityRun::whyUncovered(std::size_t file, double time) const {
-  if (time == 0.0) return LeftOutReason::zero_time;
+ExclusionReason IntensityRun::whyUncovered(std::size_t file, double time) const {
+  if (time == 0.0) return ExclusionReason::zero_time;
   switch (trajectory_->coverage(times_[file](time))) {
     case Trajectory::Coverage::before_start:
-      return LeftOutReason::before_trajectory;
+      return ExclusionReason::before_trajectory;
     case Trajectory::Coverage::after_end:
-      return LeftOutReason::after_trajectory;
+      return ExclusionReason::after_trajectory;
     default:
-      return LeftOutReason::in_trajectory_gap;
+      return ExclusionReason::in_trajectory_gap;
   }
 }
 
-std::vector<LeftOutPoints> IntensityRun::leftOut(const IntensityCounts& counts) const {
+std::vector<ExcludedPoints> IntensityRun::excludedPoints(const IntensityCounts& counts) const {
   std::vector<std::uint64_t> labels = counts.labels;
   labels.resize(arrangement().labels().size());
-  std::vector<LeftOutPoints> parts = arrangement().leftOut(labels);
+  std::vector<ExcludedPoints> parts = arrangement().excludedPoints(labels);
   for (const auto& [key, points] : counts.uncovered) {
     const std::string& strip = arrangement().labels()[key.first].strip;
     std::uint64_t all = 0;

@@ -71,7 +71,7 @@ class LasInput : public IntensityInput {
     const std::size_t step = request.records == nullptr ? length_ : request.record_length;
     out.origin = positionOf(records);
     out.points.resize(count);
-    StripArrangement::Sorter sorter(*request.arrangement, request.file);
+    StripAssignment::Assigner sorter(*request.arrangement, request.file);
     for (std::size_t i = 0; i < count; ++i) {
       out.points[i] = pointOf(records + i * step);
       out.points[i].label = labelOf(sorter, out.points[i]);
@@ -123,7 +123,7 @@ class LasInput : public IntensityInput {
 
   /// First pass: survey and boxes, window by window.
   void look(int threads) {
-    std::vector<SurveyTally> tallies(windows());
+    std::vector<SurveyStatistics> counters(windows());
     std::vector<std::vector<BlockBox>> boxes(windows());
     parallelFor(windows(), threads, [&](std::size_t window) {
       thread_local std::vector<std::byte> records;
@@ -133,10 +133,10 @@ class LasInput : public IntensityInput {
       read(first, count, records);
       for (std::size_t at = 0; at < count; at += kBlock)
         lookAtBlock(static_cast<std::uint32_t>((first + at) / kBlock), &records[at * length_],
-                    std::min(kBlock, count - at), tallies[window], boxes[window]);
+                    std::min(kBlock, count - at), counters[window], boxes[window]);
     });
-    SurveyTally sum;
-    for (const SurveyTally& tally : tallies) sum.merge(tally);
+    SurveyStatistics sum;
+    for (const SurveyStatistics& counters : counters) sum.merge(counters);
     sum.store(survey_);
     const Eigen::AlignedBox3d box = survey_.sources.box();
     if (!box.isEmpty())
@@ -149,15 +149,15 @@ class LasInput : public IntensityInput {
   }
 
   void lookAtBlock(std::uint32_t block, const std::byte* records, std::size_t count,
-                   SurveyTally& tally, std::vector<BlockBox>& boxes) const {
+                   SurveyStatistics& counters, std::vector<BlockBox>& boxes) const {
     const std::size_t first_of_block = boxes.size();
     for (std::size_t at = 0; at < count;) {
       BlockBox box;
       PointRun run;
       const std::byte* const first = records + at * length_;
       at += lookAtRun(first, count - at, box, run);
-      tally.add(run);
-      if (survey_.has_time) addPlaces(first, run, tally);
+      counters.add(run);
+      if (survey_.has_time) addPlaces(first, run, counters);
       box.block = block;
       const auto same =
           std::find_if(boxes.begin() + static_cast<std::ptrdiff_t>(first_of_block), boxes.end(),
@@ -170,7 +170,7 @@ class LasInput : public IntensityInput {
   }
 
   /// The track of a strip needs few of its points.
-  void addPlaces(const std::byte* records, const PointRun& run, SurveyTally& tally) const {
+  void addPlaces(const std::byte* records, const PointRun& run, SurveyStatistics& counters) const {
     constexpr std::size_t kEvery = 32;
     thread_local PointChunk places;
     for (auto* column : {&places.x, &places.y, &places.gps_time}) column->clear();
@@ -181,7 +181,7 @@ class LasInput : public IntensityInput {
       places.y.push_back(place.y());
       places.gps_time.push_back(layout_.timeOf(record));
     }
-    tally.addPlaces(run.source, places);
+    counters.addPlaces(run.source, places);
   }
 
   /// Looks at the records of the first one's strip; returns how many there are in a row.
@@ -243,7 +243,7 @@ class LasInput : public IntensityInput {
   }
 
   void loadNeighbours(std::size_t window, const WindowRequest& request,
-                      StripArrangement::Sorter& sorter, IntensityWindow& out) const {
+                      StripAssignment::Assigner& sorter, IntensityWindow& out) const {
     const std::map<std::uint16_t, double>& margins = request.margins;
     if (margins.empty()) return;
     std::map<std::uint16_t, Eigen::AlignedBox2f> reach;

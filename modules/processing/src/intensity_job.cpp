@@ -143,8 +143,8 @@ std::string IntensityJob::whyUnreliable(const LostIntensities& lost) const {
 
 void IntensityJob::judge() {
   const IntensityCounts all = result_.counts();
-  result_.left_out = run_.leftOut(all);
-  for (const std::string& text : describe(result_.left_out)) warn(text);
+  result_.excluded = run_.excludedPoints(all);
+  for (const std::string& text : describe(result_.excluded)) warn(text);
   const LostIntensities lost = lostIntensities(all);
   if (lost.share > LostIntensities::kMany) {
     warn(lost.text);

@@ -52,8 +52,8 @@ struct BlockOutcome {
   IntensityStatistics statistics;
 };
 
-void tally(const IntensityRun& run, const EvaluatedWindow& found, std::size_t i,
-           const CorrectedPoint& point, double stored, BlockOutcome& out) {
+void counters(const IntensityRun& run, const EvaluatedWindow& found, std::size_t i,
+              const CorrectedPoint& point, double stored, BlockOutcome& out) {
   const IntensityPoint& given = found.window.points[i];
   ++out.counts.points;
   ++out.counts.labels[given.label];
@@ -136,7 +136,7 @@ void checkCounts(const std::string& name, const IntensityCounts& counts, bool ke
   if (!keep_uncovered && !fewUncovered(uncovered, counts.points)) {
     text << "the trajectory does not cover the times of " << uncovered << " of " << counts.points
          << " points";
-    throw InputError(text.str(), Remedy::keep_uncovered);
+    throw InputError(text.str(), Hint::keep_uncovered);
   }
   const std::uint64_t above = countOf(counts, RadiometryStatus::above_sensor);
   if (2 * above > counts.points) {
@@ -305,7 +305,7 @@ void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::
       stored[i] = rounded(scaled);
       places.store(record, point);
       LasRecordLayout::storeIntensity(stored[i], record);
-      tally(run, found, i, point, scaled, part);
+      counters(run, found, i, point, scaled, part);
     }
     if (run.settings().statistics) ordered.addHistogram(found, run, stored);
     const std::uint64_t done = ordered.add(window, std::move(part));
@@ -340,7 +340,7 @@ void writePcd(const IntensityRun& run, std::size_t file, const std::filesystem::
     for (PcdColumn& column : columns)
       column.values[i] = column.name == kOriginal ? (*strip.cloud)[i].intensity
                                                   : static_cast<float>(valueOf(column.name, point));
-    tally(run, found, i, point, std::clamp(scaled, 0.5, kLargestIntensity), part);
+    counters(run, found, i, point, std::clamp(scaled, 0.5, kLargestIntensity), part);
   }
   OrderedOutcome ordered(outcome, outcome.counts[file]);
   if (run.settings().statistics && !stored.empty()) ordered.addHistogram(found, run, stored);

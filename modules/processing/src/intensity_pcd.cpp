@@ -22,20 +22,20 @@ class PcdInput : public IntensityInput {
     if (!options.gain_control.empty())
       throw UsageError(path + ": is a PCD; gain control is read from LAS");
     survey_.sources.info = PointReader::open(path)->info();
-    SurveyTally tally;
+    SurveyStatistics counters;
     PointChunk places;
     std::uint16_t source = 0;
     for (const PointLidar& point : *strip_.cloud) {
       const PointRun run = runOf(point);
-      tally.add(run);
-      if (run.source != source) tally.addPlaces(source, std::exchange(places, {}));
+      counters.add(run);
+      if (run.source != source) counters.addPlaces(source, std::exchange(places, {}));
       source = run.source;
       places.x.push_back(run.minimum.x());
       places.y.push_back(run.minimum.y());
       places.gps_time.push_back(secondsOfTime(point.gps_time));
     }
-    tally.addPlaces(source, places);
-    tally.store(survey_);
+    counters.addPlaces(source, places);
+    counters.store(survey_);
   }
 
   std::size_t windows() const override { return strip_.cloud->empty() ? 0 : 1; }
@@ -47,7 +47,7 @@ class PcdInput : public IntensityInput {
     out.points.clear();
     out.surface_points.clear();
     out.gain_control.clear();
-    StripArrangement::Sorter sorter(*request.arrangement, request.file);
+    StripAssignment::Assigner sorter(*request.arrangement, request.file);
     SurfacePoints surface_points(*request.arrangement, out);
     for (const PointLidar& p : *strip_.cloud) {
       IntensityPoint& point = out.points.emplace_back(pointOf(p));

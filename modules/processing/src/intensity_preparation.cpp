@@ -91,7 +91,7 @@ struct IntensityRun::Sample {
 std::vector<IntensityRun::Sample> IntensityRun::samplesOf(std::size_t file) const {
   const SampleSize size = trajectory_->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   std::vector<Sample> samples;
-  StripArrangement::Sorter sorter(arrangement(), file);
+  StripAssignment::Assigner sorter(arrangement(), file);
   const auto add = [&](std::uint16_t source, double time, const LidarReturn& point) {
     const int strip = arrangement().labels()[sorter.label(source, time)].index;
     if (strip >= 0) samples.push_back({strip, point});

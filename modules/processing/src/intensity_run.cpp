@@ -11,7 +11,7 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/processing/intensity_run.h>
-#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/strip_assignment.h>
 #include <pcl_als/survey/survey_messages.h>
 
 namespace pcl_als {
@@ -85,7 +85,7 @@ void IntensityRun::warnOfLines() {
   std::vector<SurveyedFile> sampled;
   for (const auto& input : inputs_)
     sampled.push_back({input->survey().sources, input->survey().tracks, {}, {}});
-  const StripArrangement lines(sampled, choice, {trajectory_.get(), times_, false});
+  const StripAssignment lines(sampled, choice, {trajectory_.get(), times_, false});
   const std::size_t divided = lines.divisions().size();
   if (divided == 0) return;
   warnings_.push_back((divided == 1 ? "a strip holds" : counted(divided, "strip") + " hold") +

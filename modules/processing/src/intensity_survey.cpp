@@ -6,12 +6,12 @@
 
 namespace pcl_als {
 
-void SurveyTally::add(const PointSource& source) {
+void SurveyStatistics::add(const PointSource& source) {
   const auto [at, fresh] = sources_.try_emplace(source.id, source);
   if (!fresh) at->second.merge(source);
 }
 
-void SurveyTally::add(const PointRun& run) {
+void SurveyStatistics::add(const PointRun& run) {
   TimeRange all = run.times;
   if (run.zero_time) all.add(0.0);
   if (run.zero_time) zero_times_.add(0.0);
@@ -24,7 +24,7 @@ void SurveyTally::add(const PointRun& run) {
   largest_ = std::max(largest_, run.largest);
 }
 
-void SurveyTally::merge(const SurveyTally& other) {
+void SurveyStatistics::merge(const SurveyStatistics& other) {
   for (const auto& [id, theirs] : other.sources_) add(theirs);
   for (const auto& [id, theirs] : other.tracks_) tracks_[id].merge(theirs);
   for (const auto& [mine, theirs] :
@@ -36,7 +36,7 @@ void SurveyTally::merge(const SurveyTally& other) {
   largest_ = std::max(largest_, other.largest_);
 }
 
-void SurveyTally::store(IntensitySurvey& survey) const {
+void SurveyStatistics::store(IntensitySurvey& survey) const {
   for (const auto& [id, source] : sources_) survey.sources.sources.push_back(source);
   survey.tracks = tracks_;
   const TimeRange& range = times_.empty() ? zero_times_ : times_;

@@ -24,14 +24,14 @@ struct PointRun {
 };
 
 /// Collects statistics of the points of a survey.
-class SurveyTally {
+class SurveyStatistics {
  public:
   void add(const PointRun& run);
   /// Adds some points of a strip to its track.
   void addPlaces(std::uint16_t source, const PointChunk& points) {
     tracks_[source].add(points, 0, points.size());
   }
-  void merge(const SurveyTally& other);
+  void merge(const SurveyStatistics& other);
   void store(IntensitySurvey& survey) const;
 
  private:

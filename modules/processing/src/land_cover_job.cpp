@@ -120,7 +120,7 @@ void LandCover::makeRasters() {
       processes);
   if (result_.rasters.points == 0) {
     throw InputError(files_.paths.front().string() + ": no point lies in the rasters",
-                     Remedy::extent);
+                     Hint::extent);
   }
   if (result_.rasters.terrain.measured == 0) requireTerrain();
   doTogether(processes, [&] {
@@ -136,7 +136,7 @@ void LandCover::requireTerrain() {
   const bool classified = !options_.map.empty();
   if (!options_.points.empty() ||
       (classified && (holds(bands_, "height") || holds(bands_, "terrain")))) {
-    throw InputError(files_.paths.front().string() + ": no ground points", Remedy::ground);
+    throw InputError(files_.paths.front().string() + ": no ground points", Hint::ground);
   }
   result_.remarks.emplace_back("no ground points: the terrain and heights above it are empty");
 }
@@ -225,7 +225,7 @@ void LandCover::reportCover(const GaussianModel& model) {
 void LandCover::check(const MaximumLikelihood& classifier, BandReader& bands) {
   result_.checks = collectChecks(options_.checks, classifier, bands);
   if (result_.checks.sites.empty()) {
-    throw InputError(options_.checks_name + ": no check site lies in the rasters", Remedy::extent);
+    throw InputError(options_.checks_name + ": no check site lies in the rasters", Hint::extent);
   }
 }
 

@@ -41,7 +41,7 @@ ExtractedLines extractLines(const std::vector<std::filesystem::path>& files,
   const PointReference reference = commonReference(infos);
   progress.end(grouped(contents.pointCount()) + " points of " + counted(names.size(), "strip"));
   for (const std::string& text : reference.remarks) progress.remark(text);
-  for (const std::string& text : describe(contents.left_out)) progress.remark(text);
+  for (const std::string& text : describe(contents.excluded)) progress.remark(text);
 
   ExtractedLines result;
   result.crs = reference.crs;

@@ -111,7 +111,7 @@ AlignmentPair filePair(const Paths& files, const std::optional<StripChoice>& cho
     return wholeFiles(
         {PointReader::open(files.at(0))->info(), PointReader::open(files.at(1))->info()});
   const std::shared_ptr<const SurveyReader> survey = arranged(files, *choice);
-  return {StripPart::ofFile(survey, 0), StripPart::ofFile(survey, 1), survey->measure().left_out,
+  return {StripPart::ofFile(survey, 0), StripPart::ofFile(survey, 1), survey->measure().excluded,
           true};
 }
 
@@ -123,11 +123,11 @@ AlignmentPair namedPair(const Paths& files, const std::pair<std::string, std::st
     const int strip = indexOf(survey->strips(), name, what);
     return StripPart::ofStrip(survey, strip, contents.boxes[static_cast<std::size_t>(strip)]);
   };
-  return {part(names.first), part(names.second), contents.left_out, true};
+  return {part(names.first), part(names.second), contents.excluded, true};
 }
 
-PairAlignment alignPair(const AlignmentPair& pair, PatchAlignmentSettings settings,
-                        const ProgressCallback& callback) {
+PairAlignment registerPair(const AlignmentPair& pair, PatchAlignmentSettings settings,
+                           const ProgressCallback& callback) {
   ProgressReport progress(callback);
   progress.begin("Reading " + pair.source.name + " and " + pair.target.name);
   OverlapPoints overlap;
@@ -137,10 +137,10 @@ PairAlignment alignPair(const AlignmentPair& pair, PatchAlignmentSettings settin
   progress.end(grouped(source.positions.size()) + " and " + grouped(target.positions.size()) +
                " points in common reach");
   for (const std::string& text : overlap.reference.remarks) progress.remark(text);
-  for (const std::string& text : describe(pair.left_out)) progress.remark(text);
+  for (const std::string& text : describe(pair.excluded)) progress.remark(text);
 
   progress.begin("Aligning");
-  PairAlignment alignment{alignPatches(source.view(), target.view(), settings),
+  PairAlignment alignment{registerPatches(source.view(), target.view(), settings),
                           source.positions.size(), target.positions.size()};
   const PatchAlignmentResult& result = alignment.result;
   progress.end(grouped(result.pairs) + " pairs, " + std::to_string(result.iterations) +

@@ -142,7 +142,7 @@ class Conversion {
     else
       writeFiles(detail::outputPaths(inputs_, output, options_.format));
     if (arranged_ && !options_.number_lines)
-      result_.left_out = arranged_->arrangement().leftOut(label_counts_);
+      result_.excluded = arranged_->arrangement().excludedPoints(label_counts_);
     if (result_.outputs.empty()) refuseNothing();
     return std::move(result_);
   }

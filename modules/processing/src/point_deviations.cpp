@@ -23,8 +23,8 @@ std::string DeviationSummary::describe() const {
 
 DeviationCells::DeviationCells(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum,
                                double cell)
-    : grid_(RasterGrid::covering(minimum.x() - kReach, minimum.y() - kReach, maximum.x() + kReach,
-                                 maximum.y() + kReach, cell)),
+    : grid_(RasterGrid::covering(minimum.x() - kMargin, minimum.y() - kMargin,
+                                 maximum.x() + kMargin, maximum.y() + kMargin, cell)),
       count_(grid_.cells()),
       horizontal_(grid_.cells()),
       vertical_(grid_.cells()) {}

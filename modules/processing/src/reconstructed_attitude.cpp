@@ -82,7 +82,7 @@ double headingOf(const Eigen::Matrix3d& rotation) {
 }
 
 void setAngles(const AttitudeRecovery::Outcome& outcome, const RollOfSwath& roll,
-               ReconstructedFlight& flight) {
+               ReconstructedTrajectory& flight) {
   std::size_t cursor = 0;
   for (const ReconstructedPath& path : flight.paths) {
     if (!path.found) continue;
@@ -108,7 +108,7 @@ void setAngles(const AttitudeRecovery::Outcome& outcome, const RollOfSwath& roll
 
 }  // namespace
 
-void recoverAttitude(const SurveyReader& survey, ReconstructedFlight& flight,
+void recoverAttitude(const SurveyReader& survey, ReconstructedTrajectory& flight,
                      ProgressReport& progress) {
   progress.begin("Recovering the attitude");
   const auto path = std::make_shared<const Trajectory>(flight.samples);

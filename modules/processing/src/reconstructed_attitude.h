@@ -5,7 +5,7 @@
 #include <string>
 
 #include <pcl_als/common/progress.h>
-#include <pcl_als/processing/flight_reconstruction.h>
+#include <pcl_als/processing/trajectory_from_points.h>
 
 namespace pcl_als::detail {
 
@@ -13,10 +13,10 @@ namespace pcl_als::detail {
  *
  * Pitch and crab are those of AttitudeRecovery, in a further reading of the points; the heading is
  * the course less the crab. The roll is that of the middle of the swath, whose edges must be
- * complete. Without any of these the samples have no attitude; ReconstructedFlight::attitude states
- * the reason.
+ * complete. Without any of these the samples have no attitude; ReconstructedTrajectory::attitude
+ * states the reason.
  */
-void recoverAttitude(const SurveyReader& survey, ReconstructedFlight& flight,
+void recoverAttitude(const SurveyReader& survey, ReconstructedTrajectory& flight,
                      ProgressReport& progress);
 
 }  // namespace pcl_als::detail

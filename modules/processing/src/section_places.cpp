@@ -14,7 +14,7 @@ double StripDensity::cellFor(double points_in_it) const {
 }
 
 std::vector<StripDensity> stripDensities(const std::vector<SurveyedFile>& files,
-                                         const StripArrangement& arrangement) {
+                                         const StripAssignment& arrangement) {
   std::vector<StripDensity> strips(arrangement.names().size());
   for (std::size_t i = 0; i < strips.size(); ++i)
     strips[i].points = arrangement.expectedPoints()[i];

@@ -183,7 +183,7 @@ void chooseStrips(const StripChoice& choice, RasterInput& files, int threads) {
   survey->choose(choice, {});
   const SurveyReader::Contents contents = survey->measure();
   files.survey = survey;
-  files.left_out = contents.left_out;
+  files.excluded = contents.excluded;
   files.points = contents.pointCount();
   const Eigen::AlignedBox3d box = contents.box();
   files.min_x = box.min().x(), files.min_y = box.min().y();

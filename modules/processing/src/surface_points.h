@@ -12,7 +12,7 @@ namespace pcl_als {
 /// Sorts single and last returns by strip; the map is asked when the strip changes.
 class SurfacePoints {
  public:
-  SurfacePoints(const StripArrangement& arrangement, IntensityWindow& window)
+  SurfacePoints(const StripAssignment& arrangement, IntensityWindow& window)
       : arrangement_(arrangement), window_(window) {}
   void add(const IntensityPoint& point) {
     if (!point.isLast()) return;
@@ -26,14 +26,14 @@ class SurfacePoints {
   }
 
  private:
-  const StripArrangement& arrangement_;
+  const StripAssignment& arrangement_;
   IntensityWindow& window_;
   std::vector<Eigen::Vector3f>* last_ = nullptr;
   int strip_ = 0;
 };
 
 /// Label of the arrangement to which a point belongs.
-inline std::uint32_t labelOf(StripArrangement::Sorter& sorter, const IntensityPoint& point) {
+inline std::uint32_t labelOf(StripAssignment::Assigner& sorter, const IntensityPoint& point) {
   return static_cast<std::uint32_t>(sorter.label(point.source, point.time));
 }
 

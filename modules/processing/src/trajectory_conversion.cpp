@@ -23,12 +23,12 @@ bool isSbet(const fs::path& output) {
   return extension == ".sbet" || extension == ".out";
 }
 
-FlightFile flightOf(const std::vector<fs::path>& paths, const Options& options) {
-  FlightFileOptions reading;
-  if (options.calibration != nullptr) reading = flightFileOptions(*options.calibration);
+LoadedTrajectory flightOf(const std::vector<fs::path>& paths, const Options& options) {
+  TrajectoryLoadingOptions reading;
+  if (options.calibration != nullptr) reading = trajectoryLoadingOptions(*options.calibration);
   static_cast<TrajectoryReading&>(reading) = options.reading;
   reading.keep_samples = true;
-  return readFlight(paths, reading);
+  return loadTrajectory(paths, reading);
 }
 
 std::vector<TrajectoryAccuracy> accuraciesOf(const std::vector<TrajectorySample>& samples,
@@ -61,7 +61,7 @@ void addPosterior(const CorrectedTrajectory& corrected,
 }
 
 /// Corrects samples and their standard deviations.
-void correct(const Options& options, const FlightFile& flight,
+void correct(const Options& options, const LoadedTrajectory& flight,
              std::vector<TrajectorySample>& samples, std::vector<TrajectoryAccuracy>& accuracies,
              const std::vector<TrajectoryAccuracy>& known, ProgressReport& progress) {
   SystemCorrection::Options how;
@@ -84,11 +84,11 @@ void correct(const Options& options, const FlightFile& flight,
                   (how.strip_corrections ? "and strip corrections " : "") +
                   "taken out; boresight, range bias and scan angle scale are parameters of the "
                   "scanner and not part of a trajectory");
-  if (corrected.left_out > 0) {
-    progress.remark("left out: " + grouped(corrected.left_out) +
+  if (corrected.excluded > 0) {
+    progress.remark("left out: " + grouped(corrected.excluded) +
                     " samples at times that the calibration does not cover");
   }
-  if (corrected.angles_left_out) {
+  if (corrected.angles_excluded) {
     progress.remark(
         "the corrections of pitch, roll and heading are not applied: the trajectory "
         "has no attitude");
@@ -109,7 +109,7 @@ void checkTrajectoryOutput(const fs::path& output, const std::string& crs) {
         output.string() +
             ": an SBET is in latitude and longitude, and the CRS of the coordinates, such as "
             "EPSG:25832, is not known",
-        Remedy::crs);
+        Hint::crs);
   }
   if (isSbet(output) || lowerExtension(output) == ".csv") return;
   throw UsageError(output.string() + ": a trajectory is written as .csv, .sbet or .out");
@@ -142,7 +142,7 @@ TrajectoryConversion convertTrajectory(const std::vector<fs::path>& paths, const
   if (isSbet(output)) protection.check(accuracyPath(output));
   ProgressReport progress(callback);
   progress.begin("Reading " + counted(paths.size(), "trajectory file"));
-  FlightFile flight = flightOf(paths, options);
+  LoadedTrajectory flight = flightOf(paths, options);
   progress.end(grouped(flight.samples.size()) + " samples");
   progress.remark(flight.format + ": " + flight.frame);
   for (const std::string& text : flight.remarks) progress.remark(text);

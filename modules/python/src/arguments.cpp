@@ -50,9 +50,11 @@ UsedSurvey::UsedSurvey(const PointsArgument& points, int threads)
       survey_(opened_ ? opened_.get() : &std::get<std::reference_wrapper<Survey>>(points).get()),
       lock_(survey_->busy) {}
 
-FlightFile flightOf(const FlightArgument& argument, const FlightFileOptions& options) {
-  if (const auto* files = std::get_if<Files>(&argument)) return readFlight(files->paths, options);
-  return std::get<std::reference_wrapper<FlightFile>>(argument).get();
+LoadedTrajectory flightOf(const TrajectoryArgument& argument,
+                          const TrajectoryLoadingOptions& options) {
+  if (const auto* files = std::get_if<Files>(&argument))
+    return loadTrajectory(files->paths, options);
+  return std::get<std::reference_wrapper<LoadedTrajectory>>(argument).get();
 }
 
 std::vector<ControlPoint> controlOf(const ControlArgument& argument) {
@@ -67,7 +69,7 @@ CalibrationResult calibrationOf(const CalibrationArgument& argument) {
   return std::get<std::reference_wrapper<CalibrationResult>>(argument).get();
 }
 
-void addInputs(const FlightArgument& flight, const ControlArgument& control,
+void addInputs(const TrajectoryArgument& flight, const ControlArgument& control,
                std::vector<std::string>& inputs) {
   if (const auto* files = std::get_if<Files>(&flight))
     for (const std::string& path : files->texts()) inputs.push_back(path);

@@ -18,7 +18,7 @@
 
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/io/strip_columns.h>
-#include <pcl_als/processing/flight_file.h>
+#include <pcl_als/processing/trajectory_loading.h>
 #include <pcl_als/survey/survey_reader.h>
 
 // What the jobs take from Python, and its conversion, which needs no GIL. Arguments of bound
@@ -57,7 +57,7 @@ struct Files {
 /// Points: files, an opened survey, or clouds in memory.
 using PointsArgument = std::variant<Files, std::reference_wrapper<Survey>, Strips>;
 /// A trajectory: its files or folder, or one that was read.
-using FlightArgument = std::variant<Files, std::reference_wrapper<FlightFile>>;
+using TrajectoryArgument = std::variant<Files, std::reference_wrapper<LoadedTrajectory>>;
 /// Control points or their CSV file; none.
 using ControlArgument =
     std::variant<std::monostate, std::filesystem::path, std::vector<ControlPoint>>;
@@ -78,11 +78,12 @@ class UsedSurvey {
 };
 
 /// The flight as the options say; one that was read already is taken as it is.
-FlightFile flightOf(const FlightArgument& argument, const FlightFileOptions& options);
+LoadedTrajectory flightOf(const TrajectoryArgument& argument,
+                          const TrajectoryLoadingOptions& options);
 std::vector<ControlPoint> controlOf(const ControlArgument& argument);
 CalibrationResult calibrationOf(const CalibrationArgument& argument);
 /// The names of the files of arguments, for lists of inputs.
-void addInputs(const FlightArgument& flight, const ControlArgument& control,
+void addInputs(const TrajectoryArgument& flight, const ControlArgument& control,
                std::vector<std::string>& inputs);
 
 /// The text of a JSON document as a Python object.

@@ -49,13 +49,13 @@ void setSystems(CalibrationSettings& settings, const Systems& systems) {
   for (const auto& [name, strips] : systems) settings.systems.push_back({name, strips});
 }
 
-std::vector<std::string> ownOf(const OwnUnknowns& own) {
+std::vector<std::string> ownOf(const PerSystemParameters& own) {
   std::vector<std::string> names = namesOf(own.parameters);
   if (own.offset) names.emplace_back("offset");
   return names;
 }
 
-OwnUnknowns ownNamed(const std::vector<std::string>& names) {
+PerSystemParameters ownNamed(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
   return ownUnknowns(list);
@@ -163,15 +163,15 @@ void bindControl(py::module_& m) {
 }
 
 std::shared_ptr<CalibrationResult> calibrate(
-    const PointsArgument& points, const FlightArgument& trajectory, const ControlArgument& control,
-    const CalibrationSettings& settings, const StripChoice& strips, const StripPairs& pairs,
-    const std::vector<std::string>& references, std::optional<int> gps_week,
-    const PythonProgress& progress) {
+    const PointsArgument& points, const TrajectoryArgument& trajectory,
+    const ControlArgument& control, const CalibrationSettings& settings, const StripChoice& strips,
+    const StripPairs& pairs, const std::vector<std::string>& references,
+    std::optional<int> gps_week, const PythonProgress& progress) {
   return runJob(progress, [&](const ProgressCallback& report) {
     UsedSurvey survey(points, settings.threads);
-    FlightFileOptions reading;
+    TrajectoryLoadingOptions reading;
     reading.crs = (*survey).reference().crs;
-    const FlightFile flight = flightOf(trajectory, reading);
+    const LoadedTrajectory flight = flightOf(trajectory, reading);
     CalibrationOptions options;
     options.settings = settings, options.strips = strips, options.pairs = pairs;
     options.control = controlOf(control), options.gps_week = gps_week;

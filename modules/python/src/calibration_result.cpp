@@ -165,7 +165,7 @@ void bindFits(py::module_& m) {
       .field("determined", &ErrorFinding::determined)
       .field("corrected", &ErrorFinding::corrected)
       .field("evidence", &ErrorFinding::evidence)
-      .field("remedy", &ErrorFinding::remedy)
+      .field("remedy", &ErrorFinding::hint)
       .bind();
 }
 
@@ -182,13 +182,13 @@ void bindSystem(py::module_& m) {
 }
 
 py::tuple stateOf(const CalibrationResult& result) {
-  return py::make_tuple(calibrationJson(result), result.left_out);
+  return py::make_tuple(calibrationJson(result), result.excluded);
 }
 
 std::shared_ptr<CalibrationResult> resultOf(const py::tuple& state) {
   auto result = std::make_shared<CalibrationResult>(
       parseCalibration(state[0].cast<std::string>(), "pickled calibration"));
-  result->left_out = state[1].cast<std::vector<LeftOutPoints>>();
+  result->excluded = state[1].cast<std::vector<ExcludedPoints>>();
   return result;
 }
 
@@ -223,7 +223,7 @@ void bindResult(py::module_& m) {
       .def_property_readonly(
           "warnings",
           [](const Result& r) { return hintedTexts("calibrate", warningTexts(r.warnings)); })
-      .def_readonly("left_out", &Result::left_out)
+      .def_readonly("left_out", &Result::excluded)
       .def_readonly("inputs", &Result::inputs, "names of files")
       .def_readonly("crs", &Result::crs,
                     "of the ground frame, WKT or an EPSG code; empty: not known")

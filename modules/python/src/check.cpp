@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <pybind11/eigen.h>
 
+#include <pcl_als/processing/check_delivery.h>
 #include <pcl_als/processing/delivery_requirement.h>
-#include <pcl_als/processing/survey_check.h>
 #include <pcl_als/quality/accuracy_standards.h>
 #include <pcl_als/report/quality_report.h>
 
@@ -35,7 +35,7 @@ struct BlockSummary {
   std::vector<PairCheck> pairs;
   std::optional<OffsetSummary> control;
   WarningTexts warnings;
-  std::vector<LeftOutPoints> left_out;
+  std::vector<ExcludedPoints> excluded;
 };
 
 struct CheckResult {
@@ -62,7 +62,7 @@ PairCheck pairOf(const CheckedPair& pair) {
 
 BlockSummary summaryOf(const CheckedBlock& block) {
   BlockSummary result;
-  result.files = block.files, result.left_out = block.left_out;
+  result.files = block.files, result.excluded = block.excluded;
   for (const CheckedStrip& strip : block.strips) result.strips.push_back(strip.id);
   for (const CheckedPair& pair : block.pairs) result.pairs.push_back(pairOf(pair));
   if (block.control) result.control = block.control->all;
@@ -134,7 +134,7 @@ void bindBlock(py::module_& m) {
       .field("control", &BlockSummary::control, "strips minus control points; None without control")
       .state(&BlockSummary::warnings)
       .property("warnings", [](const BlockSummary& b) { return hintedTexts("check", b.warnings); })
-      .field("left_out", &BlockSummary::left_out)
+      .field("left_out", &BlockSummary::excluded)
       .bind();
   Record<CheckResult>(m, "CheckResult", "The result of a delivery check.")
       .field("block", &CheckResult::block, "the set that was checked")
@@ -180,7 +180,8 @@ void bindSettings(py::module_& m) {
 }
 
 using BeforeArgument = std::variant<std::monostate, Files, std::reference_wrapper<Survey>, Strips>;
-using OptionalFlight = std::variant<std::monostate, Files, std::reference_wrapper<FlightFile>>;
+using OptionalTrajectory =
+    std::variant<std::monostate, Files, std::reference_wrapper<LoadedTrajectory>>;
 
 /// An optional argument as the argument that it holds.
 template <typename Argument, typename Optional>
@@ -195,27 +196,30 @@ std::optional<Argument> given(const Optional& argument) {
       argument);
 }
 
-SurveyCheck checkPoints(const PointsArgument& points, const std::optional<FlightArgument>& flight,
-                        const SurveyCheckOptions& options, const ProgressCallback& report) {
+DeliveryCheckResult checkPoints(const PointsArgument& points,
+                                const std::optional<TrajectoryArgument>& flight,
+                                const DeliveryCheckOptions& options,
+                                const ProgressCallback& report) {
   UsedSurvey survey(points, options.settings.threads);
-  FlightFileOptions reading;
+  TrajectoryLoadingOptions reading;
   reading.crs = (*survey).reference().crs;
   const auto trajectory = flight ? flightOf(*flight, reading).trajectory : nullptr;
-  return checkSurvey(*survey, trajectory, options, report);
+  return checkDelivery(*survey, trajectory, options, report);
 }
 
 std::shared_ptr<CheckResult> check(const PointsArgument& points, const BeforeArgument& before,
-                                   const ControlArgument& control, const OptionalFlight& trajectory,
-                                   int quality_level, const CheckSettings& settings,
-                                   const StripChoice& strips, const PythonProgress& progress) {
+                                   const ControlArgument& control,
+                                   const OptionalTrajectory& trajectory, int quality_level,
+                                   const CheckSettings& settings, const StripChoice& strips,
+                                   const PythonProgress& progress) {
   return runJob(progress, [&](const ProgressCallback& report) {
     if (quality_level < 0 || quality_level >= kQualityLevels)
       throw UsageError("quality_level: must be 0, 1, 2 or 3");
-    SurveyCheckOptions options;
+    DeliveryCheckOptions options;
     options.settings = settings, options.strips = strips;
     options.settings.control = controlOf(control);
-    const auto flight = given<FlightArgument>(trajectory);
-    SurveyCheck checked = checkPoints(points, flight, options, report);
+    const auto flight = given<TrajectoryArgument>(trajectory);
+    DeliveryCheckResult checked = checkPoints(points, flight, options, report);
     QualityReport quality;
     quality.quality_level = quality_level;
     quality.block = std::move(checked.block);

@@ -43,7 +43,7 @@ AccuracyReport assess(const LandCoverResult& result, const RasterInput& files) {
                         {},
                         {},
                         result.checks.remarks,
-                        files.left_out};
+                        files.excluded};
   return report;
 }
 

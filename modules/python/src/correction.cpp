@@ -16,9 +16,9 @@ namespace {
 
 namespace py = pybind11;
 
-FlightFile flightFor(const FlightArgument& trajectory, const CalibrationResult& calibration,
-                     const std::string& crs) {
-  FlightFileOptions reading = flightFileOptions(calibration);
+LoadedTrajectory flightFor(const TrajectoryArgument& trajectory,
+                           const CalibrationResult& calibration, const std::string& crs) {
+  TrajectoryLoadingOptions reading = trajectoryLoadingOptions(calibration);
   reading.crs = crs;
   return flightOf(trajectory, reading);
 }
@@ -48,12 +48,13 @@ void bindCorrectedFile(py::module_& m) {
 }
 
 FileCorrection correctFile(const std::filesystem::path& input, const std::filesystem::path& output,
-                           const FlightArgument& trajectory, const CalibrationArgument& calibration,
+                           const TrajectoryArgument& trajectory,
+                           const CalibrationArgument& calibration,
                            const FileCorrectionOptions& options, const PythonProgress& progress) {
   return runJob(progress, [&](const ProgressCallback& report) {
     const CalibrationResult biases = calibrationOf(calibration);
     const std::string crs = commonReference(std::vector<std::string>{input.string()}).crs;
-    const FlightFile flight = flightFor(trajectory, biases, crs);
+    const LoadedTrajectory flight = flightFor(trajectory, biases, crs);
     const FileCorrectionResult result =
         correctPointFile(input, output, biases, flight.trajectory, options, report);
     return FileCorrection{result.points,        result.coverage.missed(),
@@ -73,7 +74,8 @@ std::vector<std::uint8_t> channelsOf(const LidarStrip& strip, const std::string&
   return channels;
 }
 
-std::shared_ptr<LidarStrip> correctStrip(const LidarStrip& strip, const FlightArgument& trajectory,
+std::shared_ptr<LidarStrip> correctStrip(const LidarStrip& strip,
+                                         const TrajectoryArgument& trajectory,
                                          const CalibrationArgument& calibration,
                                          bool strip_corrections, bool invert, bool keep_uncovered,
                                          int threads) {
@@ -104,7 +106,7 @@ void bindCorrection(py::module_& m) {
   m.def(
       "correct_file",
       [](const std::filesystem::path& input, const std::filesystem::path& output,
-         const FlightArgument& trajectory, const CalibrationArgument& calibration,
+         const TrajectoryArgument& trajectory, const CalibrationArgument& calibration,
          bool strip_corrections, bool invert, bool keep_uncovered, bool force,
          std::optional<int> gps_week, int threads, const PythonProgress& progress) {
         FileCorrectionOptions options;

@@ -18,34 +18,34 @@ namespace py = pybind11;
 
 /// The remedies that arguments of functions serve, by the names of _arguments.py.
 struct RemedyName {
-  Remedy remedy;
+  Hint hint;
   const char* name;
 };
 constexpr RemedyName kRemedies[] = {
-    {Remedy::force, "force"},
-    {Remedy::force_level, "force_level"},
-    {Remedy::keep_uncovered, "keep_uncovered"},
-    {Remedy::nominal_model, "nominal_model"},
-    {Remedy::positions_only, "positions_only"},
-    {Remedy::recover_attitude, "recover_attitude"},
-    {Remedy::crs, "crs"},
-    {Remedy::axes, "axes"},
-    {Remedy::columns, "columns"},
-    {Remedy::leap_seconds, "leap_seconds"},
-    {Remedy::geoid, "geoid"},
-    {Remedy::max_distance, "max_distance"},
-    {Remedy::control, "control"},
-    {Remedy::control_sigma, "control_sigma"},
-    {Remedy::flight_sigmas, "flight_sigmas"},
-    {Remedy::strips, "strips"},
-    {Remedy::channels, "channels"},
-    {Remedy::user_data, "channels"},
-    {Remedy::split, "split"},
+    {Hint::force, "force"},
+    {Hint::force_level, "force_level"},
+    {Hint::keep_uncovered, "keep_uncovered"},
+    {Hint::nominal_model, "nominal_model"},
+    {Hint::positions_only, "positions_only"},
+    {Hint::recover_attitude, "recover_attitude"},
+    {Hint::crs, "crs"},
+    {Hint::axes, "axes"},
+    {Hint::columns, "columns"},
+    {Hint::leap_seconds, "leap_seconds"},
+    {Hint::geoid, "geoid"},
+    {Hint::max_distance, "max_distance"},
+    {Hint::control, "control"},
+    {Hint::control_sigma, "control_sigma"},
+    {Hint::flight_sigmas, "flight_sigmas"},
+    {Hint::strips, "strips"},
+    {Hint::channels, "channels"},
+    {Hint::user_data, "channels"},
+    {Hint::split, "split"},
 };
 
-const char* nameOf(Remedy remedy) {
+const char* nameOf(Hint hint) {
   for (const RemedyName& each : kRemedies)
-    if (each.remedy == remedy) return each.name;
+    if (each.hint == hint) return each.name;
   return "";
 }
 
@@ -55,11 +55,11 @@ PyObject* usage_error_class = nullptr;
 PyObject* input_error_class = nullptr;
 PyObject* cancelled_class = nullptr;
 
-/// The function that was called adds the argument which serves the remedy (_arguments.py).
+/// The function that was called adds the argument which serves the hint (_arguments.py).
 void raise(PyObject* type, const Error& error) {
   py::object instance = py::handle(type)(py::str(error.what()));
-  const std::string remedy = nameOf(error.remedy());
-  if (!remedy.empty()) instance.attr("remedy") = remedy;
+  const std::string hint = nameOf(error.hint());
+  if (!hint.empty()) instance.attr("remedy") = hint;
   PyErr_SetObject(type, instance.ptr());
 }
 
@@ -91,15 +91,15 @@ PyObject* declare(py::module_& m, const char* name, const char* text, const py::
 
 WarningTexts warningTexts(const Warnings& warnings) {
   WarningTexts texts;
-  for (const Warning& warning : warnings) texts.emplace_back(warning.text, nameOf(warning.remedy));
+  for (const Warning& warning : warnings) texts.emplace_back(warning.text, nameOf(warning.hint));
   return texts;
 }
 
 std::vector<std::string> hintedTexts(const char* function, const WarningTexts& warnings) {
   const py::object hinted = py::module_::import("pcl_als._arguments").attr("hinted");
   std::vector<std::string> lines;
-  for (const auto& [text, remedy] : warnings)
-    lines.push_back(hinted(function, text, remedy).cast<std::string>());
+  for (const auto& [text, hint] : warnings)
+    lines.push_back(hinted(function, text, hint).cast<std::string>());
   return lines;
 }
 

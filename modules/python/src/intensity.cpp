@@ -29,7 +29,7 @@ struct Radiometry {
   std::map<std::string, std::uint64_t> points_by_status;
   std::string reason, json;
   WarningTexts warnings;
-  std::vector<LeftOutPoints> left_out;
+  std::vector<ExcludedPoints> excluded;
 };
 
 void bindAtmosphere(py::module_& m) {
@@ -141,7 +141,7 @@ void bindResult(py::module_& m) {
       .state(&Radiometry::warnings)
       .property("warnings",
                 [](const Radiometry& r) { return hintedTexts("correct_intensity", r.warnings); })
-      .field("left_out", &Radiometry::left_out)
+      .field("left_out", &Radiometry::excluded)
       .state(&Radiometry::json)
       .bind()
       .def(
@@ -156,12 +156,12 @@ std::shared_ptr<Radiometry> resultOf(const IntensityReport& report) {
   radiometry->points_by_status = pointsByStatus(result.counts());
   radiometry->reason = result.unreliable, radiometry->json = intensityJson(report);
   radiometry->warnings = warningTexts(result.warnings);
-  radiometry->left_out = result.left_out;
+  radiometry->excluded = result.excluded;
   return radiometry;
 }
 
 std::shared_ptr<Radiometry> correctIntensities(const Files& inputs, const Files& outputs,
-                                               const FlightArgument& trajectory,
+                                               const TrajectoryArgument& trajectory,
                                                const IntensityOptions& options,
                                                const std::optional<Atmosphere>& air,
                                                const ProgressCallback& report) {
@@ -176,9 +176,9 @@ std::shared_ptr<Radiometry> correctIntensities(const Files& inputs, const Files&
     used.settings.model.extinction_per_km = extinction.parts.total();
   }
   extinction.per_km = used.settings.model.extinction_per_km;
-  FlightFileOptions reading;
+  TrajectoryLoadingOptions reading;
   reading.crs = commonReference(inputs.texts()).crs;
-  const FlightFile flight = flightOf(trajectory, reading);
+  const LoadedTrajectory flight = flightOf(trajectory, reading);
   const IntensityResult result =
       correctIntensity(inputs.texts(), outputs.texts(), flight.trajectory, used, report);
   return resultOf({&result, extinction, options.output, outputs.texts()});
@@ -192,7 +192,7 @@ void bindIntensity(py::module_& m) {
   bindResult(m);
   m.def(
       "correct_intensity",
-      [](const Files& inputs, const Files& outputs, const FlightArgument& trajectory,
+      [](const Files& inputs, const Files& outputs, const TrajectoryArgument& trajectory,
          const IntensitySettings& settings, const std::optional<Atmosphere>& atmosphere,
          const IntensityOutput& output, const std::optional<std::filesystem::path>& targets,
          double target_radius, const PythonProgress& progress) {

@@ -115,7 +115,7 @@ double farthestOf(const Doubles& values) {
 void copyCoordinates(const py::array& points, bool choose_origin, StripWithColumns& strip) {
   const Doubles x = fieldOf(points, "x"), y = fieldOf(points, "y"), z = fieldOf(points, "z");
   const double farthest = std::max({farthestOf(x), farthestOf(y), farthestOf(z)});
-  if (choose_origin && farthest > LocalFrame::kReach)
+  if (choose_origin && farthest > LocalFrame::kMaximumExtent)
     strip.frame = LocalFrame::around({middleOf(x), middleOf(y), middleOf(z)}, strip.frame.crs);
   const Eigen::Vector3d shift =
       choose_origin ? strip.frame.origin : Eigen::Vector3d(Eigen::Vector3d::Zero());

@@ -30,7 +30,7 @@ pybind11::array viewOf(const std::shared_ptr<Cloud>& cloud);
  * The whole array of viewOf() gives its own cloud; of any other one the fields are copied. x, y and
  * z are relative to \a origin. Without an origin they are coordinates of the ground frame if they
  * are not 32-bit floats, and get a frame around their centre where they reach further than
- * LocalFrame::kReach; otherwise the origin is zero.
+ * LocalFrame::kMaximumExtent; otherwise the origin is zero.
  *
  * UsageError for an array that has more than one dimension, lacks x, y or z or has a field of
  * another kind than numbers, and for coordinates that 32-bit floats relative to the origin would

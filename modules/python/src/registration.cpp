@@ -105,8 +105,8 @@ void bindSettings(py::module_& m) {
       .def_readwrite("threads", &Settings::threads);
 }
 
-Alignment alignStrips(const LidarStrip& source, const LidarStrip& target,
-                      const PatchAlignmentSettings& settings) {
+Alignment registerStrips(const LidarStrip& source, const LidarStrip& target,
+                         const PatchAlignmentSettings& settings) {
   IterativeClosestPatch<PointLidar, PointLidar> icpatch;
   icpatch.setInputSource(source.cloud);
   icpatch.setInputTarget(target.cloud);
@@ -124,12 +124,12 @@ Alignment alignStrips(const LidarStrip& source, const LidarStrip& target,
                      {source.id, target.id, source.cloud->size(), target.cloud->size(), {}});
 }
 
-Alignment alignFiles(const std::filesystem::path& source, const std::filesystem::path& target,
-                     const PatchAlignmentSettings& settings, const ProgressCallback& report) {
+Alignment registerFiles(const std::filesystem::path& source, const std::filesystem::path& target,
+                        const PatchAlignmentSettings& settings, const ProgressCallback& report) {
   const AlignmentPair pair = filePair({source, target}, std::nullopt);
-  const PairAlignment made = alignPair(pair, settings, report);
+  const PairAlignment made = registerPair(pair, settings, report);
   return alignmentOf(made.result, {pair.source.name, pair.target.name, made.source_points,
-                                   made.target_points, pair.left_out});
+                                   made.target_points, pair.excluded});
 }
 
 std::shared_ptr<Alignment> icpatch(const StripArgument& source, const StripArgument& target,
@@ -139,11 +139,11 @@ std::shared_ptr<Alignment> icpatch(const StripArgument& source, const StripArgum
     if (source.index() != target.index())
       throw UsageError("source and target: not both strips in memory, nor both files");
     if (const auto* strip = std::get_if<std::reference_wrapper<LidarStrip>>(&source))
-      return std::make_shared<Alignment>(alignStrips(
+      return std::make_shared<Alignment>(registerStrips(
           strip->get(), std::get<std::reference_wrapper<LidarStrip>>(target).get(), settings));
-    return std::make_shared<Alignment>(alignFiles(std::get<std::filesystem::path>(source),
-                                                  std::get<std::filesystem::path>(target), settings,
-                                                  report));
+    return std::make_shared<Alignment>(registerFiles(std::get<std::filesystem::path>(source),
+                                                     std::get<std::filesystem::path>(target),
+                                                     settings, report));
   });
 }
 

@@ -57,17 +57,17 @@ void bindChoices(py::module_& m) {
   py::implicitly_convertible<py::sequence, StripChoice>();
 }
 
-void bindLeftOut(py::module_& m) {
-  Record<LeftOutPoints>(m, "LeftOutPoints", "Points of a strip that took no part, and why.")
-      .field("strip", &LeftOutPoints::strip)
-      .state(&LeftOutPoints::reason)
+void bindExcluded(py::module_& m) {
+  Record<ExcludedPoints>(m, "LeftOutPoints", "Points of a strip that took no part, and why.")
+      .field("strip", &ExcludedPoints::strip)
+      .state(&ExcludedPoints::reason)
       .property(
-          "reason", [](const LeftOutPoints& part) { return std::string(toString(part.reason)); },
+          "reason", [](const ExcludedPoints& part) { return std::string(toString(part.reason)); },
           "'excluded', 'before_trajectory', 'too_few_points', ...")
-      .field("points", &LeftOutPoints::points, "number of points that were left out")
-      .field("of", &LeftOutPoints::of, "points of the strip")
+      .field("points", &ExcludedPoints::points, "number of points that were left out")
+      .field("of", &ExcludedPoints::of, "points of the strip")
       .bind()
-      .def("__str__", [](const LeftOutPoints& part) { return describe(part); });
+      .def("__str__", [](const ExcludedPoints& part) { return describe(part); });
   Record<SurveyArea>(m, "SurveyArea", "A square of ground in which strips are compared.")
       .field("minimum", &SurveyArea::minimum, "south-west corner, m, ground frame")
       .field("size", &SurveyArea::size, "side, m")
@@ -102,7 +102,7 @@ void setBounds(PointWindow& window, const std::optional<Rectangle>& bounds) {
 
 void bindSurvey(py::module_& m) {
   bindChoices(m);
-  bindLeftOut(m);
+  bindExcluded(m);
   py::class_<Survey, std::shared_ptr<Survey>>(
       m, "Survey",
       "The points of a survey as strips, from files (.las, .laz, .pcd) that jobs read when they "

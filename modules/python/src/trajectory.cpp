@@ -7,8 +7,8 @@
 #include <pybind11/numpy.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/processing/flight_reconstruction.h>
 #include <pcl_als/processing/trajectory_conversion.h>
+#include <pcl_als/processing/trajectory_from_points.h>
 #include <pcl_als/trajectory/trajectory_screening.h>
 
 #include "arguments.h"
@@ -31,7 +31,7 @@ constexpr Word<AttitudeAxes> kAttitudeAxes[] = {
     {"by_course", AttitudeAxes::by_course}, {"ned", AttitudeAxes::ned}, {"enu", AttitudeAxes::enu}};
 
 /// One column for each of time, x, y, z, roll, pitch, heading.
-py::array_t<double> samplesOf(const FlightFile& flight) {
+py::array_t<double> samplesOf(const LoadedTrajectory& flight) {
   py::array_t<double> values({static_cast<py::ssize_t>(flight.samples.size()), py::ssize_t{7}});
   auto out = values.mutable_unchecked<2>();
   for (py::ssize_t i = 0; i < out.shape(0); ++i) {
@@ -59,8 +59,8 @@ std::vector<TrajectorySample> samplesFrom(const Columns& values) {
   return samples;
 }
 
-std::shared_ptr<FlightFile> makeFlight(const Columns& values) {
-  auto flight = std::make_shared<FlightFile>();
+std::shared_ptr<LoadedTrajectory> makeFlight(const Columns& values) {
+  auto flight = std::make_shared<LoadedTrajectory>();
   flight->samples = samplesFrom(values);
   Trajectory::Options options;
   options.use_attitude = values.shape(1) == 7;
@@ -71,13 +71,14 @@ std::shared_ptr<FlightFile> makeFlight(const Columns& values) {
   return flight;
 }
 
-std::shared_ptr<FlightFile> readFlightFiles(const Files& files, const FlightFileOptions& options) {
+std::shared_ptr<LoadedTrajectory> readFlightFiles(const Files& files,
+                                                  const TrajectoryLoadingOptions& options) {
   return runJob({}, [&](const ProgressCallback&) {
-    return std::make_shared<FlightFile>(readFlight(files.paths, options));
+    return std::make_shared<LoadedTrajectory>(loadTrajectory(files.paths, options));
   });
 }
 
-py::tuple stateOf(const FlightFile& flight) {
+py::tuple stateOf(const LoadedTrajectory& flight) {
   const Trajectory& path = *flight.trajectory;
   std::vector<std::vector<double>> accuracy;
   for (const TrajectoryAccuracy& at : flight.accuracy)
@@ -88,8 +89,8 @@ py::tuple stateOf(const FlightFile& flight) {
                         flight.frame, flight.remarks, accuracy);
 }
 
-std::shared_ptr<FlightFile> flightOfState(const py::tuple& state) {
-  auto flight = std::make_shared<FlightFile>();
+std::shared_ptr<LoadedTrajectory> flightOfState(const py::tuple& state) {
+  auto flight = std::make_shared<LoadedTrajectory>();
   flight->samples = samplesFrom(state[0].cast<Columns>());
   Trajectory::Options options;
   options.use_attitude = state[1].cast<bool>();
@@ -108,7 +109,7 @@ std::shared_ptr<FlightFile> flightOfState(const py::tuple& state) {
 }
 
 void bindFlight(py::module_& m) {
-  py::class_<FlightFile, std::shared_ptr<FlightFile>>(
+  py::class_<LoadedTrajectory, std::shared_ptr<LoadedTrajectory>>(
       m, "Flight",
       "A trajectory in the ground frame of the points. Times are seconds on its own clock; jobs "
       "reconcile the times of points with it.")
@@ -120,36 +121,36 @@ void bindFlight(py::module_& m) {
                              "n x 7: time (s), x, y, z (m), roll, pitch, heading (rad; NaN: none); "
                              "a new array")
       .def_property_readonly(
-          "start_time", [](const FlightFile& f) { return f.trajectory->startTime(); }, "s")
+          "start_time", [](const LoadedTrajectory& f) { return f.trajectory->startTime(); }, "s")
       .def_property_readonly(
-          "end_time", [](const FlightFile& f) { return f.trajectory->endTime(); }, "s")
+          "end_time", [](const LoadedTrajectory& f) { return f.trajectory->endTime(); }, "s")
       .def_property_readonly(
-          "has_attitude", [](const FlightFile& f) { return f.trajectory->hasAttitude(); },
+          "has_attitude", [](const LoadedTrajectory& f) { return f.trajectory->hasAttitude(); },
           "whether roll, pitch and heading are used")
       .def_property_readonly(
-          "reconstructed", [](const FlightFile& f) { return f.reconstructed(); },
+          "reconstructed", [](const LoadedTrajectory& f) { return f.reconstructed(); },
           "whether it was reconstructed from points")
-      .def_readonly("format", &FlightFile::format, "'SBET', 'text', ...")
-      .def_readonly("frame", &FlightFile::frame, "coordinates and datum of the file")
-      .def_readonly("remarks", &FlightFile::remarks, "conversions and repairs")
-      .def("__len__", [](const FlightFile& f) { return f.trajectory->size(); })
+      .def_readonly("format", &LoadedTrajectory::format, "'SBET', 'text', ...")
+      .def_readonly("frame", &LoadedTrajectory::frame, "coordinates and datum of the file")
+      .def_readonly("remarks", &LoadedTrajectory::remarks, "conversions and repairs")
+      .def("__len__", [](const LoadedTrajectory& f) { return f.trajectory->size(); })
       .def(py::pickle(&stateOf, &flightOfState));
 }
 
 /// The flight of points; only positions where \a attitude is false.
-std::shared_ptr<FlightFile> reconstruct(const PointsArgument& points,
-                                        const std::optional<std::filesystem::path>& output,
-                                        bool attitude, const StripChoice& strips, int threads,
-                                        const ProgressCallback& report) {
+std::shared_ptr<LoadedTrajectory> reconstruct(const PointsArgument& points,
+                                              const std::optional<std::filesystem::path>& output,
+                                              bool attitude, const StripChoice& strips, int threads,
+                                              const ProgressCallback& report) {
   UsedSurvey survey(points, threads);
   ReconstructionOptions options;
   options.attitude = attitude, options.strips = strips;
-  const ReconstructedFlight flight = reconstructFlight(*survey, options, report);
+  const ReconstructedTrajectory flight = reconstructTrajectory(*survey, options, report);
   if (output) writeReconstruction(flight, *output, (*survey).reference().crs);
-  FlightFileOptions reading;
+  TrajectoryLoadingOptions reading;
   reading.keep_samples = true;
   if (!attitude) reading.attitude = AttitudeUse::ignore;
-  auto made = std::make_shared<FlightFile>(flight.asFile(reading));
+  auto made = std::make_shared<LoadedTrajectory>(flight.asFile(reading));
   for (const Warning& warning : flight.warnings) made->remarks.push_back(warning.text);
   if (!flight.incomplete.empty()) made->remarks.push_back(flight.incomplete);
   return made;
@@ -204,7 +205,7 @@ void bindTrajectory(py::module_& m) {
       [](const Files& paths, const std::string& crs, const std::string& own_crs,
          const std::string& attitude, const std::vector<std::string>& columns,
          std::optional<double> leap_seconds, const std::string& geoid, const std::string& axes) {
-        FlightFileOptions options;
+        TrajectoryLoadingOptions options;
         options.crs = crs, options.own_crs = own_crs, options.columns = columns;
         options.leap_seconds = leap_seconds, options.geoid = geoid;
         options.attitude = valueOf(kAttitudeUses, attitude, "attitude");

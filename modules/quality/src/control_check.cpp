@@ -171,7 +171,7 @@ Warnings warningsOf(const ControlAssessment& control) {
         "the strips lie more than " + shortText(control.distance_limit) +
             " m above (+) or below (-) control points, which are not used there: " + far +
             ": blunders, or points on other surfaces",
-        Remedy::max_distance);
+        Hint::max_distance);
   if (isSignificantInPlan(control.shift))
     warnings.emplace_back(
         "control on slopes shows a shift in plan: a movement of the strips by " +

@@ -51,8 +51,8 @@ Displacement displacementAt(const PatchAlignmentResult& result, const Eigen::Vec
 
 }  // namespace
 
-PatchAlignmentResult alignStrips(const std::vector<AreaOffsets>& areas, int a, int b,
-                                 const PatchAlignmentSettings& settings) {
+PatchAlignmentResult registerStrips(const std::vector<AreaOffsets>& areas, int a, int b,
+                                    const PatchAlignmentSettings& settings) {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   double count = 0.0;
   for (const AreaOffsets& area : areas) {
@@ -67,7 +67,7 @@ PatchAlignmentResult alignStrips(const std::vector<AreaOffsets>& areas, int a, i
     nothing.message = "no area of the overlap has enough points of both strips";
     return nothing;
   }
-  return alignPatches(viewOf(source, origin), viewOf(target, origin), settings);
+  return registerPatches(viewOf(source, origin), viewOf(target, origin), settings);
 }
 
 const char* toString(PatchAlignmentResult::Status status) {

@@ -18,11 +18,12 @@ namespace {
 /// 1.1e-11 of it, in pairs of pairs. Beyond +-600 the exponential of that, which no 16-bit value
 /// tells from 0 or infinity.
 ALS_INLINE double exponential(double x) {
-  constexpr double kPerLn2 = 1.4426950408889634, kLn2 = 0.69314718055994531, kMost = 600.0;
+  constexpr double kPerLn2 = 1.4426950408889634, kLn2 = 0.69314718055994531,
+                   kMaximumExponent = 600.0;
   // Adding 1.5 * 2^52 rounds to a whole number, which is then in the low bits.
   constexpr double kShift = 6755399441055744.0;
-  x = x < -kMost ? -kMost : x;
-  x = x > kMost ? kMost : x;
+  x = x < -kMaximumExponent ? -kMaximumExponent : x;
+  x = x > kMaximumExponent ? kMaximumExponent : x;
   const double shifted = x * kPerLn2 + kShift;
   const double r = x - (shifted - kShift) * kLn2;
   std::uint64_t bits;

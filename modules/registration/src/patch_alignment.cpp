@@ -49,13 +49,13 @@ class Alignment {
   PatchAlignmentResult run(const PointView& source, const PointView& target);
 
  private:
-  void alignCoarsely();
-  void alignLevel(std::vector<AreaSurfaces>& level, double cell);
+  void registerCoarsely();
+  void registerLevel(std::vector<AreaSurfaces>& level, double cell);
   std::vector<AreaSurfaces> prepareAreas(const WorkingPoints& source, const WorkingPoints& target);
   void chooseCandidates(std::vector<AreaSurfaces>& areas, const SurfaceCriterion& criterion,
                         std::size_t count) const;
-  bool alignFinely(std::vector<AreaSurfaces>& areas);
-  bool alignDetermined(std::vector<AreaSurfaces>& areas);
+  bool registerFinely(std::vector<AreaSurfaces>& areas);
+  bool registerDetermined(std::vector<AreaSurfaces>& areas);
   void keepSwing(const Unknowns& update);
   void setMotion();
   void compareWithAllSurfaces(std::vector<AreaSurfaces>& areas);
@@ -87,7 +87,7 @@ PatchAlignmentResult Alignment::fail(Status status, const std::string& message) 
   return result_;
 }
 
-void Alignment::alignCoarsely() {
+void Alignment::registerCoarsely() {
   threshold_ = settings_.search_distance;
   std::vector<CommonCells> levels{overlap_.cells.pooled()};
   while (levels.size() < kCoarseLevels) levels.push_back(levels.back().pooled());
@@ -99,11 +99,11 @@ void Alignment::alignCoarsely() {
           SurfaceSide((i == 0 ? level->source : level->target).points(), {}, settings_.resolution);
       side.makeCoarse(kCoarsePoints);
     });
-    alignLevel(areas, level->source.grid().cell);
+    registerLevel(areas, level->source.grid().cell);
   }
 }
 
-void Alignment::alignLevel(std::vector<AreaSurfaces>& level, double cell) {
+void Alignment::registerLevel(std::vector<AreaSurfaces>& level, double cell) {
   for (int i = 0; i < kCoarseIterations; ++i) {
     const PatchPairs pairs =
         findPairs(level, motion_, threshold_, overlap_.groups, noise_, settings_.threads);
@@ -199,7 +199,7 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
  * take turns have different solutions and would never converge. In the last one a stalled iteration
  * is damped, with its weights held.
  */
-bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
+bool Alignment::registerFinely(std::vector<AreaSurfaces>& areas) {
   threshold_ = std::clamp(threshold_, kLeastThreshold, kFirstFineThreshold);
   double step = 1.0;
   bool last = false;
@@ -247,9 +247,9 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
  * seem to determine a motion in plan from the noise of flat ground. \return whether there are
  * pairs.
  */
-bool Alignment::alignDetermined(std::vector<AreaSurfaces>& areas) {
+bool Alignment::registerDetermined(std::vector<AreaSurfaces>& areas) {
   for (;;) {
-    const bool converged = alignFinely(areas);
+    const bool converged = registerFinely(areas);
     if (pairs_.size() < kFewestPairs) return false;
     setMotion();
     AlignmentReport report(pairs_, frame(), weighting_.scatter, weighting_.directions, settings_);
@@ -302,12 +302,12 @@ bool Alignment::isSmall(const Unknowns& update) const {
 PatchAlignmentResult Alignment::run(const PointView& source, const PointView& target) {
   if (!overlap_.find(source, target, settings_, guess_))
     return fail(Status::no_overlap, "the clouds do not overlap in plan");
-  alignCoarsely();
+  registerCoarsely();
   const WorkingPoints moved(source, Eigen::Translation3d(-overlap_.reference) * guess_);
   const WorkingPoints fixed(target, Affine3d(Eigen::Translation3d(-overlap_.reference)));
   std::vector<AreaSurfaces> areas = prepareAreas(moved, fixed);
   result_.overlap_area = overlap_.area;
-  if (!alignDetermined(areas))
+  if (!registerDetermined(areas))
     return fail(Status::too_few_pairs, "only " + std::to_string(pairs_.size()) +
                                            " points lie on a smooth surface of the other cloud");
   return result_;
@@ -329,8 +329,9 @@ void check(const PatchAlignmentSettings& settings) {
 
 }  // namespace
 
-PatchAlignmentResult alignPatches(const PointView& source, const PointView& target,
-                                  const PatchAlignmentSettings& settings, const Affine3d& guess) {
+PatchAlignmentResult registerPatches(const PointView& source, const PointView& target,
+                                     const PatchAlignmentSettings& settings,
+                                     const Affine3d& guess) {
   check(settings);
   return Alignment(settings, guess).run(source, target);
 }

@@ -46,9 +46,10 @@ void SurfaceSide::chooseCandidates(std::size_t count, const SurfaceCriterion& cr
   planes_.clear();
   // The normals of single triangles are noisy and only select triangles that are examined; the
   // orientation is that of the neighbourhood's plane.
-  constexpr std::size_t kExaminedPerCandidate = 2, kEnough = 16;
+  constexpr std::size_t kExaminedPerCandidate = 2, kExaminedTriangles = 16;
   const Tin& tin = surface_.tin();
-  const std::size_t step = std::max<std::size_t>(1, tin.triangles().size() / (kEnough * count));
+  const std::size_t step =
+      std::max<std::size_t>(1, tin.triangles().size() / (kExaminedTriangles * count));
   const auto rough = trianglesByOrientation(surface_, step, [&](std::int32_t point) {
     return box_.contains(tin.points()[point].head<2>());
   });

@@ -12,9 +12,9 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/report/accuracy_report.h>
 
+#include "excluded_json.h"
 #include "formatted.h"
 #include "json_number.h"
-#include "left_out_json.h"
 
 namespace pcl_als {
 namespace {
@@ -161,7 +161,7 @@ std::string accuracyJson(const AccuracyReport& report) {
   std::vector<std::string> remarks = report.result.remarks;
   remarks.insert(remarks.end(), report.remarks.begin(), report.remarks.end());
   json["warnings"] = remarks;
-  if (!report.left_out.empty()) json["left_out"] = leftOutJson(report.left_out);
+  if (!report.excluded.empty()) json["left_out"] = excludedJson(report.excluded);
   json["inputs"] = report.inputs;
   json["tool_version"] = PCL_ALS_VERSION;
   return json.dump(1) + "\n";

@@ -9,7 +9,7 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/report/alignment_report.h>
 
-#include "left_out_json.h"
+#include "excluded_json.h"
 
 namespace pcl_als {
 namespace {
@@ -150,7 +150,7 @@ std::string alignmentJson(const Result& result, const AlignedStrips& strips) {
   json["version"] = 1;
   json["source"] = {{"name", strips.source}, {"points", strips.source_points}};
   json["target"] = {{"name", strips.target}, {"points", strips.target_points}};
-  json["left_out"] = leftOutJson(strips.left_out);
+  json["left_out"] = excludedJson(strips.excluded);
   json["status"] = statusName(result.status);
   json["message"] = result.message;
   const auto& c = result.motion.centroid;

@@ -16,20 +16,20 @@
 namespace pcl_als {
 namespace {
 
-/// "Lever arm x, lever arm y: apply this calibration": each remedy once, with the errors it is for.
+/// "Lever arm x, lever arm y: apply this calibration": each hint once, with the errors it is for.
 std::vector<std::string> remediesOf(const CalibrationResult& result) {
   std::vector<std::pair<std::string, std::string>> remedies;
   for (const ErrorFinding& f : result.diagnosis) {
     if (!(f.determined && f.probability > 0.5)) continue;
     const auto same = std::find_if(remedies.begin(), remedies.end(),
-                                   [&](const auto& each) { return each.first == f.remedy; });
+                                   [&](const auto& each) { return each.first == f.hint; });
     if (same == remedies.end())
-      remedies.emplace_back(f.remedy, f.title);
+      remedies.emplace_back(f.hint, f.title);
     else
       same->second += ", " + f.title;
   }
   std::vector<std::string> texts;
-  for (const auto& [remedy, errors] : remedies) texts.push_back(errors + ": " + remedy + ".");
+  for (const auto& [hint, errors] : remedies) texts.push_back(errors + ": " + hint + ".");
   return texts;
 }
 
@@ -113,7 +113,7 @@ ReportTable heldTable(const CalibrationResult& result) {
                     {"surface", "strips", "pairs", "RMS before", "RMS after", "mean before",
                      "mean after", "height", "std"},
                     {}};
-  for (const HeldSurface& s : result.held) {
+  for (const FixedSurface& s : result.held) {
     std::string strips;
     for (const std::string& strip : s.strips) strips += (strips.empty() ? "" : ", ") + strip;
     table.rows.push_back({s.name, strips, grouped(s.correspondences), numberText(s.rms_before, 4),

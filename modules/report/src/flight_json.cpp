@@ -80,7 +80,7 @@ Json trajectory(const std::string& path, const TrajectoryFacts& facts) {
 
 }  // namespace
 
-void addFlight(Json& json, const ListedFlight& flight) {
+void addFlight(Json& json, const ListedTrajectory& flight) {
   json["trajectories"] = Json::array();
   for (const auto& [path, facts] : flight.trajectories)
     json["trajectories"].push_back(trajectory(path, facts));

@@ -4,11 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <pcl_als/report/census_report.h>
+#include <pcl_als/report/inventory_report.h>
 
 namespace pcl_als::detail {
 
 /// Adds "trajectories" and, where there are some, "accuracies".
-void addFlight(nlohmann::ordered_json& json, const ListedFlight& flight);
+void addFlight(nlohmann::ordered_json& json, const ListedTrajectory& flight);
 
 }  // namespace pcl_als::detail

@@ -9,8 +9,8 @@
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/report/intensity_report.h>
 
+#include "excluded_json.h"
 #include "json_number.h"
-#include "left_out_json.h"
 
 namespace pcl_als {
 namespace {
@@ -233,7 +233,7 @@ std::string intensityJson(const IntensityReport& report) {
   json["output_scale"] = report.output.scale;
   json["saturation"] = report.result->run->saturation();
   json["files"] = filesJson(report);
-  json["left_out"] = leftOutJson(report.result->left_out);
+  json["left_out"] = excludedJson(report.result->excluded);
   json["warnings"] = textsOf(report.result->warnings);
   json["report"] = reportJson(report);
   return json.dump(1) + "\n";

@@ -123,8 +123,8 @@ void addHistograms(const IntensityReport& intensity, HtmlReport& report) {
                             histogramSeries("after", histogram.after, width, bins)}});
   }
   if (plot.panels.empty()) return;
-  if (plot.panels.size() > CurvePanels::kMost)
-    plot.title += " (" + std::to_string(CurvePanels::kMost) + " of " +
+  if (plot.panels.size() > CurvePanels::kMaximumPanels)
+    plot.title += " (" + std::to_string(CurvePanels::kMaximumPanels) + " of " +
                   std::to_string(plot.panels.size()) + ")";
   plot.keepLargest();
   report.addPicture(

@@ -256,14 +256,15 @@ Canvas standardisedPicture(const ImageOrientationResult& result) {
   plot.title = "Residuals over their standard deviations";
   plot.x_label = "standardised residual";
   constexpr int kBins = 30;
-  constexpr double kMost = 6.0;
-  for (int i = 0; i <= kBins; ++i) plot.edges.push_back(kMost * i / kBins);
+  constexpr double kMaximumStandardisedResidual = 6.0;
+  for (int i = 0; i <= kBins; ++i) plot.edges.push_back(kMaximumStandardisedResidual * i / kBins);
   plot.series = {{"points", std::vector<double>(kBins, 0.0)},
                  {"lines", std::vector<double>(kBins, 0.0)}};
   for (const ImageResidual& r : result.bundle.residuals) {
     if (!r.used) continue;
     const bool line = result.block.measurements[r.measurement].kind == ImageMeasurement::Kind::line;
-    const int bin = std::clamp(static_cast<int>(kBins * r.standardised / kMost), 0, kBins - 1);
+    const int bin = std::clamp(
+        static_cast<int>(kBins * r.standardised / kMaximumStandardisedResidual), 0, kBins - 1);
     plot.series[line ? 1 : 0].counts[static_cast<std::size_t>(bin)] += 1.0;
   }
   return drawHistogram(plot, {kWidth, 640});

@@ -8,8 +8,8 @@
 #include <pcl_als/processing/delivery_requirement.h>
 #include <pcl_als/report/quality_report.h>
 
+#include "excluded_json.h"
 #include "json_number.h"
-#include "left_out_json.h"
 
 namespace pcl_als {
 namespace {
@@ -242,7 +242,7 @@ Json blockJson(const CheckedBlock& block) {
   }
   json["smooth_roughness_m"] = block.roughness_limit;
   json["warnings"] = textsOf(block.warnings);
-  json["left_out"] = leftOutJson(block.left_out);
+  json["left_out"] = excludedJson(block.excluded);
   return json;
 }
 

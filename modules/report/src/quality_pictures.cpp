@@ -124,8 +124,9 @@ CurvePanels offsetPanels(const QualityReport& report, OffsetAgainst against) {
                                  [](const auto& series) { return !series.x.empty(); });
     if (any) plot.panels.push_back(std::move(panel));
   }
-  if (plot.panels.size() > CurvePanels::kMost)
-    plot.title += " (the " + std::to_string(CurvePanels::kMost) + " pairs with the largest)";
+  if (plot.panels.size() > CurvePanels::kMaximumPanels)
+    plot.title +=
+        " (the " + std::to_string(CurvePanels::kMaximumPanels) + " pairs with the largest)";
   plot.keepLargest();
   return plot;
 }

@@ -169,13 +169,13 @@ std::string triangleText(const QualityReport& report) {
   std::string text =
       "\nClosure of height differences around three strips, on the ground that all three cover, "
       "m\n\n";
-  constexpr std::size_t kMost = 20;
+  constexpr std::size_t kMaximumRows = 20;
   const auto& all = report.block.triangles;
-  for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
+  for (std::size_t i = 0; i < std::min(kMaximumRows, all.size()); ++i)
     text += formatted("  %s, %s, %s: %s (std %s), %zu cells\n", all[i].a.c_str(), all[i].b.c_str(),
                       all[i].c.c_str(), metres(all[i].closure).c_str(), size(all[i].std).c_str(),
                       all[i].cells);
-  if (all.size() > kMost) text += formatted("  … and %zu more\n", all.size() - kMost);
+  if (all.size() > kMaximumRows) text += formatted("  … and %zu more\n", all.size() - kMaximumRows);
   return text;
 }
 

@@ -21,7 +21,7 @@ std::string evidenceOf(const ReconstructedPath& path) {
   return path.rays > path.rejected ? "rays and scan angles" : "scan angles";
 }
 
-ReportTable pathTable(const ReconstructedFlight& flight) {
+ReportTable pathTable(const ReconstructedTrajectory& flight) {
   ReportTable table{"paths",
                     "Paths by strip: height above ground, RMS over time of the standard deviations "
                     "east, north and up, m; evidence that determined them",
@@ -40,7 +40,7 @@ ReportTable pathTable(const ReconstructedFlight& flight) {
   return table;
 }
 
-ReportTable rayTable(const ReconstructedFlight& flight) {
+ReportTable rayTable(const ReconstructedTrajectory& flight) {
   ReportTable table{"rays",
                     "Rays through two returns of a pulse: number, those that miss the path, median "
                     "separation of the returns (m); standard deviation of a return across its ray "
@@ -56,7 +56,7 @@ ReportTable rayTable(const ReconstructedFlight& flight) {
   return table;
 }
 
-ReportTable angleTable(const ReconstructedFlight& flight) {
+ReportTable angleTable(const ReconstructedTrajectory& flight) {
   ReportTable table{
       "angles",
       "Recorded scan angles where they determined the path: scale (relative), offset, "
@@ -75,7 +75,7 @@ ReportTable angleTable(const ReconstructedFlight& flight) {
 }
 
 /// Standard deviations of each path over time.
-CurvePanels stdPanels(const ReconstructedFlight& flight) {
+CurvePanels stdPanels(const ReconstructedTrajectory& flight) {
   CurvePanels panels;
   panels.title = "Standard deviations of the position";
   panels.x_label = "seconds from the beginning of the strip";
@@ -97,7 +97,7 @@ CurvePanels stdPanels(const ReconstructedFlight& flight) {
   return panels;
 }
 
-CurvePanels residualPanels(const ReconstructedFlight& flight) {
+CurvePanels residualPanels(const ReconstructedTrajectory& flight) {
   CurvePanels panels;
   panels.title = "Distances of rays from the path, in standard deviations";
   panels.x_label = "tenth of the strip's time";
@@ -126,7 +126,7 @@ double enlargementFor(const std::vector<BlockMap::Path>& paths, double extent) {
   return largest > 0.0 ? std::pow(10.0, std::floor(std::log10(0.1 * extent / largest))) : 1.0;
 }
 
-void addPathMap(const ReconstructedFlight& flight, const StripCoverage& coverage,
+void addPathMap(const ReconstructedTrajectory& flight, const StripCoverage& coverage,
                 const std::vector<std::string>& strips, HtmlReport& report) {
   std::vector<BlockMap::Path> paths;
   for (const ReconstructedPath& path : flight.paths) {
@@ -149,7 +149,7 @@ void addPathMap(const ReconstructedFlight& flight, const StripCoverage& coverage
           numberText(enlargement, 0) + " times.");
 }
 
-Verdict verdictOf(const ReconstructedFlight& flight) {
+Verdict verdictOf(const ReconstructedTrajectory& flight) {
   Verdict verdict;
   std::size_t found = 0;
   Eigen::Vector3d largest = Eigen::Vector3d::Zero();
@@ -198,7 +198,7 @@ SurveyObserver TrajectoryPage::observer() {
   return {begin, points};
 }
 
-void TrajectoryPage::write(const ReportOrigin& origin, const ReconstructedFlight& flight,
+void TrajectoryPage::write(const ReportOrigin& origin, const ReconstructedTrajectory& flight,
                            const std::vector<std::string>& files) const {
   HtmlReport report(origin.titleOr("Trajectory from points"), origin.program);
   addVerdict(verdictOf(flight), report);

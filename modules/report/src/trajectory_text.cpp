@@ -5,7 +5,7 @@
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/io/trajectory_accuracy.h>
-#include <pcl_als/report/census_report.h>
+#include <pcl_als/report/inventory_report.h>
 #include <pcl_als/trajectory/heading_check.h>
 #include <pcl_als/trajectory/trajectory_screening.h>
 
@@ -69,7 +69,7 @@ std::string accuracyText(const std::string& name,
 
 }  // namespace
 
-std::string flightText(const ListedFlight& flight) {
+std::string flightText(const ListedTrajectory& flight) {
   std::string text;
   for (const auto& [path, facts] : flight.trajectories) text += trajectoryText(path, facts);
   if (!flight.accuracy.empty()) text += accuracyText(flight.accuracy_path, flight.accuracy);

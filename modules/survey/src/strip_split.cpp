@@ -16,11 +16,11 @@ namespace {
 using Eigen::Vector2d;
 using Bins = TrackMotion::Bins;
 using Span = TrackMotion::Span;
-using Reason = std::optional<LeftOutReason>;
+using Reason = std::optional<ExclusionReason>;
 
-constexpr double kAtRest = 0.05;      // m/s: no platform is slower; courses of less are noise
-constexpr double kLeastWindow = 1.0;  // s: shorter stretches have no course
-constexpr double kApart = 2.0;        // s before and after, of a rate of turn
+constexpr double kAtRest = 0.05;           // m/s: no platform is slower; courses of less are noise
+constexpr double kLeastWindow = 1.0;       // s: shorter stretches have no course
+constexpr double kTurnRateInterval = 2.0;  // s before and after, of a rate of turn
 constexpr double kLeastRate = 1.5 * kRadiansPerDegree;  // rad/s: half a standard-rate turn
 constexpr double kTurn = 60.0 * kRadiansPerDegree;      // in all: corridors have bends
 constexpr double kGapTurn = 30.0 * kRadiansPerDegree;   // across a gap, of a trajectory
@@ -58,7 +58,7 @@ class Division {
   };
 
   double hover() const { return motion_.isFlown() ? kHover : kSwathHover; }
-  void mark(const Span& span, LeftOutReason reason);
+  void mark(const Span& span, ExclusionReason reason);
   std::vector<double> ratesOfTurn(const Span& run) const;
   void markTurns(const Span& run);
   void markHovering(const Span& session);
@@ -79,7 +79,7 @@ class Division {
   std::vector<double> least_;  // m/s by bin: slower is hovering
 };
 
-void Division::mark(const Span& span, LeftOutReason reason) {
+void Division::mark(const Span& span, ExclusionReason reason) {
   for (std::size_t i = span.first; i < span.second; ++i) reasons_[i] = reason;
 }
 
@@ -88,8 +88,8 @@ std::vector<double> Division::ratesOfTurn(const Span& run) const {
   const auto [first, last] = run;
   std::vector<double> rates(last - first, 0.0);
   for (std::size_t i = first; i < last; ++i) {
-    const double early = std::max(bins_[i].middle() - kApart, bins_[first].first);
-    const double late = std::min(bins_[i].middle() + kApart, bins_[last - 1].last);
+    const double early = std::max(bins_[i].middle() - kTurnRateInterval, bins_[first].first);
+    const double late = std::min(bins_[i].middle() + kTurnRateInterval, bins_[last - 1].last);
     if (!(late - early >= kLeastWindow)) continue;
     const auto before = motion_.velocity(early, run, least_[i]);
     const auto after = motion_.velocity(late, run, least_[i]);
@@ -114,7 +114,7 @@ void Division::markTurns(const Span& run) {
       const std::size_t bin = run.first + k;
       change += rates[k] * (bins_[bin].middle() - bins_[bin - 1].middle());
     }
-    if (std::abs(change) > kTurn) mark({run.first + i, run.first + end}, LeftOutReason::in_turn);
+    if (std::abs(change) > kTurn) mark({run.first + i, run.first + end}, ExclusionReason::in_turn);
     i = end;
   }
 }
@@ -149,7 +149,7 @@ void Division::markHovering(const Span& session) {
       continue;
     }
     const Span hovering{startOfBraking(session, i), endOfStarting(session, end)};
-    mark(hovering, LeftOutReason::hovering);
+    mark(hovering, ExclusionReason::hovering);
     i = hovering.second;
   }
 }
@@ -224,11 +224,11 @@ void Division::leaveOutRemnants(std::vector<Part>& parts) const {
   for (std::size_t k = 1; k + 1 < lines.size(); ++k) {
     if (!joined(k) || !joined(k + 1)) continue;
     const Part& part = parts[lines[k]];
-    if (duration(part.bins) < 2.0 * std::max(kApart, motion_.halfWindow()) ||
+    if (duration(part.bins) < 2.0 * std::max(kTurnRateInterval, motion_.halfWindow()) ||
         isPassage(parts[lines[k - 1]], part, parts[lines[k + 1]]))
       remnants.push_back(lines[k]);
   }
-  for (const std::size_t i : remnants) parts[i].reason = LeftOutReason::in_turn;
+  for (const std::size_t i : remnants) parts[i].reason = ExclusionReason::in_turn;
 }
 
 std::vector<TimeStretch> Division::stretches() const {

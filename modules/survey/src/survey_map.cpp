@@ -19,7 +19,7 @@ namespace {
 // Coordinates of a survey are multiples of its file's scale, so points lie exactly on cell borders
 // that are counted from one of them. Borders a fraction of a millimetre aside keep a point's cell
 // the same when the whole block moves.
-constexpr double kAside = 0.00037;
+constexpr double kTieBreakingOffset = 0.00037;
 
 constexpr int kGroup = 4;  // areas per side of the groups that selectAreas spreads over
 
@@ -46,7 +46,7 @@ bool isSurfacePoint(const LidarReturn& point) {
 }
 
 SurveyMap::SurveyMap(const Eigen::Vector2d& anchor)
-    : anchor_(anchor - Eigen::Vector2d::Constant(kAside)) {}
+    : anchor_(anchor - Eigen::Vector2d::Constant(kTieBreakingOffset)) {}
 
 int SurveyMap::addStrip() {
   strips_.emplace_back();
@@ -155,7 +155,7 @@ std::vector<SurveyMap::Overlap> SurveyMap::overlaps(double minimum_area) const {
 }
 
 SurveyMap::HeightOffset SurveyMap::heightOffset(const StripPair& pair) const {
-  constexpr std::uint32_t kEnough = 5;
+  constexpr std::uint32_t kMinimumPoints = 5;
   constexpr std::size_t kFewestCells = 20;
   std::vector<double> differences;
   const StripCells& one = strips_[static_cast<std::size_t>(pair.first)];
@@ -163,8 +163,8 @@ SurveyMap::HeightOffset SurveyMap::heightOffset(const StripPair& pair) const {
   const auto& others = another.cells;
   for (const auto& [key, cell] : one.cells) {
     const auto other = others.find(key);
-    if (other == others.end() || cell.last_returns < std::min(kEnough, one.enough) ||
-        other->second.last_returns < std::min(kEnough, another.enough)) {
+    if (other == others.end() || cell.last_returns < std::min(kMinimumPoints, one.enough) ||
+        other->second.last_returns < std::min(kMinimumPoints, another.enough)) {
       continue;
     }
     differences.push_back(cell.lowest - other->second.lowest);

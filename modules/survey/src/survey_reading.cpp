@@ -79,8 +79,8 @@ SurveyReader::Groups SurveyReader::groupsOf(const Reading& reading,
   const std::set<std::size_t> wanted(chosen.begin(), chosen.end());
   Groups groups = groupsOfFiles();
   for (std::vector<std::size_t>& group : groups) {
-    const auto is_left_out = [&](std::size_t file) { return wanted.count(file) == 0; };
-    group.erase(std::remove_if(group.begin(), group.end(), is_left_out), group.end());
+    const auto is_excluded = [&](std::size_t file) { return wanted.count(file) == 0; };
+    group.erase(std::remove_if(group.begin(), group.end(), is_excluded), group.end());
   }
   return groups;
 }
@@ -106,7 +106,7 @@ SharedItems SurveyReader::stripShares() const {
   return {processes_, owners};
 }
 
-std::vector<LeftOutPoints> SurveyReader::read(const Visitor& visit, const Reading& reading) const {
+std::vector<ExcludedPoints> SurveyReader::read(const Visitor& visit, const Reading& reading) const {
   using Share = Reading::Share;
   if (reading.share == Share::first && areShared(processes_)) return readByFirst(visit, reading);
   Communicator* const together = reading.share == Share::all ? nullptr : processes_;
@@ -122,16 +122,16 @@ std::vector<LeftOutPoints> SurveyReader::read(const Visitor& visit, const Readin
   LabelCounts all(labels);
   for (const LabelCounts& count : counts)
     for (std::size_t i = 0; i < labels; ++i) all[i] += count[i];
-  return arrangement_ ? arrangement_->leftOut(all) : std::vector<LeftOutPoints>();
+  return arrangement_ ? arrangement_->excludedPoints(all) : std::vector<ExcludedPoints>();
 }
 
-std::vector<LeftOutPoints> SurveyReader::readByFirst(const Visitor& visit, Reading reading) const {
+std::vector<ExcludedPoints> SurveyReader::readByFirst(const Visitor& visit, Reading reading) const {
   reading.share = Reading::Share::all;
-  std::vector<LeftOutPoints> left_out;
+  std::vector<ExcludedPoints> excluded;
   doTogether(processes_, [&] {
-    if (isRoot(processes_)) left_out = read(visit, reading);
+    if (isRoot(processes_)) excluded = read(visit, reading);
   });
-  return left_out;
+  return excluded;
 }
 
 void SurveyReader::readGroups(const Groups& groups, const std::vector<std::size_t>& chosen,
@@ -173,7 +173,7 @@ SurveyReader::Run SurveyReader::runAt(std::size_t file, const PointChunk& chunk,
                                       std::size_t from) const {
   if (!arrangement_)
     return {static_cast<int>(file), 0, file, chunk, from, chunk.size(), times_[file]};
-  const auto [to, label] = StripArrangement::Sorter(*arrangement_, file).run(chunk, from);
+  const auto [to, label] = StripAssignment::Assigner(*arrangement_, file).run(chunk, from);
   return {arrangement_->labels()[label].index, label, file, chunk, from, to, times_[file]};
 }
 
@@ -206,7 +206,7 @@ SurveyReader::Contents SurveyReader::measure() const {
   Contents contents;
   contents.points.resize(strips_.size());
   contents.boxes.resize(strips_.size());
-  contents.left_out = read([&contents](const Run& run) {
+  contents.excluded = read([&contents](const Run& run) {
     const auto strip = static_cast<std::size_t>(run.strip);
     contents.points[strip] += run.to - run.from;
     contents.boxes[strip].extend(boxOf(run.chunk, run.from, run.to));

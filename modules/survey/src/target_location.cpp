@@ -14,18 +14,19 @@ constexpr std::size_t kFewestPoints = 20;  // in the search window
 constexpr double kFewestOnTarget = 2.5;    // returns
 // Logarithm of the Bayes factor of a target against none: a thousand to one.
 constexpr double kDecisive = 6.9;
-constexpr double kLeastContrast = 4.0;  // difference of the levels over the noise
-constexpr double kLargestStd = 0.5;     // radii: of the centre, in its least certain direction
-constexpr double kApart = 1.0;          // radii from the mean: another place of the target
-constexpr double kElsewhere = 0.01;     // probability of other places, and of the window's edge
-constexpr double kLocal = 2.2;          // radii: ground next to the target
+constexpr double kLeastContrast = 4.0;      // difference of the levels over the noise
+constexpr double kLargestStd = 0.5;         // radii: of the centre, in its least certain direction
+constexpr double kSeparationInRadii = 1.0;  // radii from the mean: another place of the target
+constexpr double kOutsideProbability =
+    0.01;                       // probability of other places, and of the window's edge
+constexpr double kLocal = 2.2;  // radii: ground next to the target
 // Returns between the target's edge and the end of the ground next to it.
 constexpr double kLocalSpacings = 2.5;
 constexpr double kCertain = 2.5;   // standard deviations from the edge of returns on the target
 constexpr double kEdgeZone = 1.5;  // blurs
 constexpr double kTexture = 0.35;  // share of the noise of intensities that varies slowly
 // Returns with the brightness of the other side: blurs from the edge, and how many are accepted.
-constexpr double kMargin = 1.5, kFewWrong = 1.0, kShareWrong = 0.02;
+constexpr double kMargin = 1.5, kAllowedOutliers = 1.0, kShareWrong = 0.02;
 
 // The a priori standard deviation of the difference of the levels, over the noise.
 constexpr double kPriorContrast = 100.0;
@@ -277,11 +278,11 @@ TargetStatus statusOf(const Posterior& posterior, const TargetSearch& search) {
   const auto atEdge = [&](const Eigen::Vector2d& place) {
     return (place - search.centre).cwiseAbs().maxCoeff() > edge;
   };
-  if (posterior.probability(atEdge) > kElsewhere) return TargetStatus::at_edge;
+  if (posterior.probability(atEdge) > kOutsideProbability) return TargetStatus::at_edge;
   const auto apart = [&](const Eigen::Vector2d& place) {
-    return (place - posterior.mean).norm() > kApart * search.radius;
+    return (place - posterior.mean).norm() > kSeparationInRadii * search.radius;
   };
-  if (posterior.probability(apart) > kElsewhere ||
+  if (posterior.probability(apart) > kOutsideProbability ||
       posterior.largestStd() > kLargestStd * search.radius)
     return TargetStatus::ambiguous;
   return TargetStatus::located;
@@ -337,7 +338,7 @@ bool isContradicted(const std::vector<TargetPoint>& points, const TargetSearch& 
     const int side = sideOf(p);
     if (side >= 0 && (p.intensity > middle) != (levels[side] > middle)) wrong += 1.0;
   }
-  return wrong > kFewWrong + kShareWrong * (counts[0] + counts[1]);
+  return wrong > kAllowedOutliers + kShareWrong * (counts[0] + counts[1]);
 }
 
 void listCertain(const std::vector<TargetPoint>& points, double radius, TargetLocation& location) {

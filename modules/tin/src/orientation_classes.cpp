@@ -20,9 +20,10 @@ std::size_t OrientationClasses::of(const Eigen::Vector3d& normal) {
   const int step = !steeper(1) ? 0 : !steeper(2) ? 1 : 2;
   // Coordinates are multiples of a step, so directions along the axes and diagonals are common:
   // borders between classes lie aside, or rounding would decide.
-  constexpr double kAside = 0.1234;
+  constexpr double kTieBreakingOffset = 0.1234;
   const double turn =
-      std::fmod(std::atan2(normal.y(), normal.x()) + 3.0 * kPi + kAside, 2.0 * kPi) / (2.0 * kPi);
+      std::fmod(std::atan2(normal.y(), normal.x()) + 3.0 * kPi + kTieBreakingOffset, 2.0 * kPi) /
+      (2.0 * kPi);
   return static_cast<std::size_t>(1 + step * kAspects +
                                   std::min(kAspects - 1, static_cast<int>(turn * kAspects)));
 }

@@ -108,8 +108,8 @@ PatchQuality PatchSurface::quality(std::int32_t triangle) const {
   for (const std::int32_t v : around(own, std::move(ring))) others.add(tin_.points()[v] - origin);
   Moments all = others;
   for (const std::int32_t v : own) all.add(tin_.points()[v] - origin);
-  constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
-  quality.vertices = static_cast<std::uint16_t>(std::min(all.count, kMost));
+  constexpr double kMaximumStored = std::numeric_limits<std::uint16_t>::max();
+  quality.vertices = static_cast<std::uint16_t>(std::min(all.count, kMaximumStored));
 
   const Vector3d normal = tin::unitNormal(tin_, triangle);
   const Plane plane = fitPlane(all);
@@ -118,8 +118,8 @@ PatchQuality PatchSurface::quality(std::int32_t triangle) const {
   quality.roughness = static_cast<float>(plane.rms);
   quality.bend = static_cast<float>(angleBetween(normal, plane.normal));
 
-  constexpr double kEnough = 4.0;
-  const Plane without_own = others.count >= kEnough ? fitPlane(others) : plane;
+  constexpr double kMinimumNeighbours = 4.0;
+  const Plane without_own = others.count >= kMinimumNeighbours ? fitPlane(others) : plane;
   quality.spread = static_cast<float>(without_own.spread);
   quality.plane_normal =
       without_own.normal.z() < 0.0 ? Vector3d(-without_own.normal) : without_own.normal;

@@ -103,8 +103,8 @@ void Tin::movePoints(std::vector<Eigen::Vector3d> points) {
 /// them. Triangles along the hull are thin, turn over for any movement, and are not used to measure
 /// on.
 double Tin::shareOfInverted() const {
-  constexpr std::size_t kEnough = 4096;
-  const std::size_t every = std::max<std::size_t>(1, triangles_.size() / kEnough);
+  constexpr std::size_t kSampledTriangles = 4096;
+  const std::size_t every = std::max<std::size_t>(1, triangles_.size() / kSampledTriangles);
   std::size_t inverted = 0, examined = 0;
   for (std::size_t i = 0; i < triangles_.size(); i += every, ++examined) {
     const Triangle& t = triangles_[i];

@@ -15,10 +15,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFoot = 0.3048;                          // metres
-constexpr double kLowest = 10.0, kHighest = 20e3;         // metres above the points
-constexpr double kBeside = 2.0;                           // heights
-constexpr double kFirstLeapSeconds = 13.0, kMost = 19.0;  // UTC since 2006 and for some years
+constexpr double kFoot = 0.3048;                   // metres
+constexpr double kLowest = 10.0, kHighest = 20e3;  // metres above the points
+constexpr double kBeside = 2.0;                    // heights
+constexpr double kFirstLeapSeconds = 13.0,
+                 kLastLeapSeconds = 19.0;  // UTC since 2006 and for some years
 
 bool fits(const Vector3d& sensor, const Vector3d& points) {
   const Vector3d d = sensor - points;
@@ -52,13 +53,13 @@ std::string coordinateCause(const Vector3d& sensor, const Vector3d& points) {
 
 Warning timeCause(double seconds_ahead) {
   const double seconds = std::abs(seconds_ahead);
-  if (seconds < kFirstLeapSeconds - 0.5 || seconds > kMost + 0.5) return "";
+  if (seconds < kFirstLeapSeconds - 0.5 || seconds > kLastLeapSeconds + 0.5) return "";
   char text[160];
   std::snprintf(text, sizeof text,
                 "%.1f s of flight, as if the times of the %s were UTC, which lags GPS time by 18 s "
                 "since 2017",
                 seconds, seconds_ahead > 0.0 ? "points" : "trajectory");
-  return {text, seconds_ahead > 0.0 ? Remedy::none : Remedy::leap_seconds};
+  return {text, seconds_ahead > 0.0 ? Hint::none : Hint::leap_seconds};
 }
 
 }  // namespace pcl_als::detail

@@ -43,7 +43,7 @@ Eigen::Vector3d SampleScreening::velocityBeside(std::size_t rank, bool earlier,
 std::vector<SampleScreening::Step> SampleScreening::largeSteps(const Piece& piece) const {
   std::vector<Step> steps;
   std::size_t rank = piece.first;
-  if (left_out_[rank]) rank = behind(rank, piece);
+  if (excluded_[rank]) rank = behind(rank, piece);
   for (std::size_t next; rank != kNone; rank = next) {
     next = behind(rank, piece);
     if (next == kNone) break;

@@ -41,7 +41,7 @@ void TrajectoryPlausibility::checkHeading(std::vector<Finding>& findings) const 
 
 TrajectoryPlausibility::Finding TrajectoryPlausibility::ofAttitude(bool wrong,
                                                                    const std::string& text) const {
-  if (attitude_ == Attitude::used) return {wrong, {text, Remedy::positions_only}};
+  if (attitude_ == Attitude::used) return {wrong, {text, Hint::positions_only}};
   if (attitude_ == Attitude::needed) return {wrong, text};
   return {false, text + "; only positions are used here: check that they are those of this flight"};
 }

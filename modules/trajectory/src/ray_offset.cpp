@@ -61,7 +61,7 @@ Warning RayOffset::cause() const {
     return {
         "an offset as between ellipsoidal heights and heights above a geoid, whose undulation "
         "can be given",
-        Remedy::geoid};
+        Hint::geoid};
   if (size * size - along * along > kMostly * size * size) return "";
   const double seconds = along / speed;
   const Warning utc = timeCause(seconds);

@@ -48,7 +48,7 @@ double speedBetween(const TrajectorySample& a, const TrajectorySample& b) {
 }  // namespace
 
 SampleScreening::SampleScreening(const std::vector<TrajectorySample>& samples)
-    : samples_(samples), breaks_(samples.size(), 0), left_out_(samples.size(), 0) {
+    : samples_(samples), breaks_(samples.size(), 0), excluded_(samples.size(), 0) {
   screening_.samples = samples.size();
 }
 
@@ -183,20 +183,20 @@ void SampleScreening::findBreaks() {
 
 std::size_t SampleScreening::before(std::size_t rank, const Piece& piece) const {
   while (rank-- > piece.first)
-    if (!left_out_[rank]) return rank;
+    if (!excluded_[rank]) return rank;
   return kNone;
 }
 
 std::size_t SampleScreening::behind(std::size_t rank, const Piece& piece) const {
   while (++rank < piece.last)
-    if (!left_out_[rank]) return rank;
+    if (!excluded_[rank]) return rank;
   return kNone;
 }
 
 std::vector<const TrajectorySample*> SampleScreening::anchors(const Hypothesis& h,
                                                               std::size_t& count_before,
                                                               std::size_t& count_behind) const {
-  std::array<std::size_t, SampleWindow::kMost> earlier, later;
+  std::array<std::size_t, SampleWindow::kMaximumSamples> earlier, later;
   count_before = count_behind = 0;
   for (std::size_t r = before(h.first, h.piece); r != kNone && count_before < earlier.size();
        r = before(r, h.piece))
@@ -206,8 +206,9 @@ std::vector<const TrajectorySample*> SampleScreening::anchors(const Hypothesis& 
     later[count_behind++] = r;
   // Where one side has too few, the other one has more.
   const std::size_t from_before =
-      std::min(count_before, SampleWindow::kMost - std::min(kBeside, count_behind));
-  count_behind = std::min(count_behind, SampleWindow::kMost - std::min(kBeside, from_before));
+      std::min(count_before, SampleWindow::kMaximumSamples - std::min(kBeside, count_behind));
+  count_behind =
+      std::min(count_behind, SampleWindow::kMaximumSamples - std::min(kBeside, from_before));
   count_before = from_before;
   std::vector<const TrajectorySample*> samples;
   samples.reserve(count_before + count_behind);
@@ -270,7 +271,7 @@ bool SampleScreening::isOutlier(const Hypothesis& h, OutlierRun& run) const {
 }
 
 bool SampleScreening::tryRun(const Hypothesis& h) {
-  if (left_out_[h.first] || left_out_[h.last]) return false;
+  if (excluded_[h.first] || excluded_[h.last]) return false;
   const std::size_t p = before(h.first, h.piece), q = behind(h.last, h.piece);
   if (p == kNone && q == kNone) return false;
   if (p != kNone && q != kNone && h.first < h.last && at(q).time - at(p).time > gap_threshold_)
@@ -278,8 +279,8 @@ bool SampleScreening::tryRun(const Hypothesis& h) {
   OutlierRun run;
   if (!isOutlier(h, run)) return false;
   for (std::size_t rank = h.first; rank <= h.last; ++rank) {
-    if (left_out_[rank]) continue;
-    left_out_[rank] = 1;
+    if (excluded_[rank]) continue;
+    excluded_[rank] = 1;
     run.samples.push_back(indexOf(rank));
   }
   run.from = at(h.first).time, run.to = at(h.last).time;

@@ -79,7 +79,7 @@ class SampleScreening {
   std::vector<std::uint32_t> order_;  ///< empty where the samples are in order of time
   std::vector<Piece> pieces_;
   std::vector<char> breaks_;  ///< by rank: whether the path or attitude bends there suddenly
-  std::vector<char> left_out_;
+  std::vector<char> excluded_;
   double gap_threshold_ = 0.0;
   FlightScale scale_;
   TrajectoryScreening screening_;

@@ -51,9 +51,9 @@ inline ChannelValues channelsOf(const SampleValues& difference) {
  * are many enough for redundancy. */
 class SampleWindow {
  public:
-  static constexpr std::size_t kMost = 8, kFewest = 4;
+  static constexpr std::size_t kMaximumSamples = 8, kMinimumSamples = 4;
 
-  /// \a anchors: kFewest to kMost samples, of different times.
+  /// \a anchors: kMinimumSamples to kMaximumSamples samples, of different times.
   explicit SampleWindow(const std::vector<const TrajectorySample*>& anchors);
 
   /// Deviation of a sample from the polynomial; NaN in channels that a sample or anchor lacks.

@@ -16,7 +16,7 @@ void SourceCorrection::requireColumns(const PointColumns& points) const {
                      ", for which the points need " + what);
   };
   requireColumn(ErrorSource::intensity_ranging, points.intensity, "an intensity");
-  requireColumn(ErrorSource::mirror_torsion, points.turning, "a scan direction");
+  requireColumn(ErrorSource::mirror_torsion, points.scan_direction, "a scan direction");
 }
 
 void SourceCorrection::add(const PointColumns& points, std::size_t count, bool invert,
@@ -31,7 +31,8 @@ void SourceCorrection::add(const PointColumns& points, std::size_t count, bool i
     SourceReading reading;
     reading.time = points.time[i];
     if (points.intensity != nullptr) reading.intensity = points.intensity[i];
-    if (points.turning != nullptr) reading.turning = static_cast<float>(points.turning[i]);
+    if (points.scan_direction != nullptr)
+      reading.scan_direction = static_cast<float>(points.scan_direction[i]);
     if (!std::isfinite(reading.time) || !flight_->poseAt(reading.time, pose, cursor)) continue;
     const Eigen::Vector3d moved =
         sign * effect.displacement(reading, pose, position, scale_, values_);

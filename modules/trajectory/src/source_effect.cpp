@@ -46,10 +46,10 @@ Eigen::Vector3d deflected(const ScanGeometry& geometry) {
 }
 
 /// Sets the columns of the errors of a mirror's angle.
-void addMirror(double turning, const ScanGeometry& geometry, double largest_angle,
+void addMirror(double scan_direction, const ScanGeometry& geometry, double largest_angle,
                SourceEffects& effects) {
   const Eigen::Vector3d turned = geometry.rotation * geometry.turned();
-  effects.col(indexOf(ErrorSource::mirror_torsion)) = turning * turned;
+  effects.col(indexOf(ErrorSource::mirror_torsion)) = scan_direction * turned;
   if (!(largest_angle > 0.0)) return;
   const double u = geometry.beta / largest_angle;
   effects.col(indexOf(ErrorSource::encoder_cubic)) = 0.5 * (5.0 * u * u - 3.0) * u * turned;
@@ -59,9 +59,10 @@ void addMirror(double turning, const ScanGeometry& geometry, double largest_angl
 }  // namespace
 
 double SourceEffect::logIntensity(double intensity, const ErrorSourceScale& scale) {
-  constexpr double kMost = 100.0;  // ratio of intensities
+  constexpr double kMaximumIntensityRatio = 100.0;  // ratio of intensities
   if (!(scale.median_intensity > 0.0)) return 0.0;
-  return std::log(std::clamp(intensity / scale.median_intensity, 1.0 / kMost, kMost));
+  return std::log(std::clamp(intensity / scale.median_intensity, 1.0 / kMaximumIntensityRatio,
+                             kMaximumIntensityRatio));
 }
 
 void SourceEffect::addOffsets(SourceEffects& effects) {
@@ -80,7 +81,7 @@ void SourceEffect::add(const SourceReading& reading, const SensorPose& pose,
   if (scale.about_axis)
     effects.col(indexOf(ErrorSource::deflection_scale)) = geometry.rotation * deflected(geometry);
   else
-    addMirror(reading.turning, geometry, scale.largest_angle, effects);
+    addMirror(reading.scan_direction, geometry, scale.largest_angle, effects);
   if (scale.median_intensity > 0.0) {
     effects.col(indexOf(ErrorSource::intensity_ranging)) =
         logIntensity(reading.intensity, scale) * beam;

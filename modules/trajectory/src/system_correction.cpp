@@ -77,7 +77,7 @@ void SystemCorrection::takeOptions(const CalibrationResult& calibration, double 
   } else {
     attitude_ = calibration.recovered_attitude;
   }
-  attitude_.addPasses(options.further_attitude);
+  attitude_.addPasses(options.fallback_attitude);
   if (needs_recovered_ && attitude_.empty())
     throw InputError(
         "the calibration was estimated with pitch and crab recovered from the points, and does not "
@@ -142,7 +142,7 @@ class Gathered {
     }
     for (const std::size_t i : chosen) {
       if (from.intensity != nullptr) intensity_.push_back(from.intensity[i]);
-      if (from.turning != nullptr) turning_.push_back(from.turning[i]);
+      if (from.scan_direction != nullptr) scan_directions_.push_back(from.scan_direction[i]);
     }
     for (std::vector<double>& change : changes_) change.resize(chosen.size());
   }
@@ -152,7 +152,7 @@ class Gathered {
             columns_[2].data(),
             columns_[3].data(),
             from_.intensity != nullptr ? intensity_.data() : nullptr,
-            from_.turning != nullptr ? turning_.data() : nullptr};
+            from_.scan_direction != nullptr ? scan_directions_.data() : nullptr};
   }
   EffectColumns change() { return {changes_[0].data(), changes_[1].data(), changes_[2].data()}; }
 
@@ -160,7 +160,7 @@ class Gathered {
   const PointColumns& from_;
   std::vector<double> columns_[4], changes_[3];
   std::vector<float> intensity_;
-  std::vector<std::int8_t> turning_;
+  std::vector<std::int8_t> scan_directions_;
 };
 
 }  // namespace

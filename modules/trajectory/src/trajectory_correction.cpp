@@ -73,7 +73,7 @@ CorrectedTrajectory correctTrajectory(const std::vector<TrajectorySample>& sampl
     SensorPose pose;
     if (!correction.flight()->poseAt(sample.time, pose, cursor) ||
         !correction.knowsAttitude(sample.time)) {
-      ++corrected.left_out;
+      ++corrected.excluded;
       continue;
     }
     TrajectoryErrorKnot error;
@@ -87,7 +87,7 @@ CorrectedTrajectory correctTrajectory(const std::vector<TrajectorySample>& sampl
           groundFromBody(sample.roll, sample.pitch, sample.heading).toRotationMatrix();
       setAngles(rotation * boresightRotation(both).transpose() * boresight, sample);
     } else if (!error.angles.isZero(0.0)) {
-      corrected.angles_left_out = true;
+      corrected.angles_excluded = true;
     }
     corrected.samples.push_back(sample);
     corrected.lever_arm_variance.push_back(pose.rotation.cwiseAbs2() * lever_std.cwiseAbs2());

@@ -62,11 +62,11 @@ void TrajectoryPlausibility::release() {
 }
 
 std::size_t TrajectoryPlausibility::spacing(std::size_t count, double duration) const {
-  constexpr double kMost = 32.0, kPointsPerSecond = 1e4;
-  if (!path_) return static_cast<std::size_t>(kMost);
+  constexpr double kMaximumSpacing = 32.0, kPointsPerSecond = 1e4;
+  if (!path_) return static_cast<std::size_t>(kMaximumSpacing);
   const double every = static_cast<double>(count) / (kPointsPerSecond * std::abs(duration));
-  return every < kMost ? std::max<std::size_t>(1, static_cast<std::size_t>(every))
-                       : static_cast<std::size_t>(kMost);
+  return every < kMaximumSpacing ? std::max<std::size_t>(1, static_cast<std::size_t>(every))
+                                 : static_cast<std::size_t>(kMaximumSpacing);
 }
 
 void TrajectoryPlausibility::addRun(int strip, const LidarReturn* points, std::size_t count) {
@@ -178,7 +178,7 @@ Warning TrajectoryPlausibility::outOfReach(const Strip& strip) {
   const std::string found = objection(strip);
   if (found.empty()) return found;
   Warning cause = causeOf(strip);
-  return {cause.text.empty() ? found : found + "; " + cause.text, cause.remedy};
+  return {cause.text.empty() ? found : found + "; " + cause.text, cause.hint};
 }
 
 std::string TrajectoryPlausibility::whyOutOfReach(int strip) const {
@@ -190,7 +190,7 @@ void TrajectoryPlausibility::checkStrips(std::vector<Finding>& findings) const {
     if (!strip.used) continue;
     const Warning found = outOfReach(strip);
     if (found.text.empty()) continue;
-    findings.push_back({true, {"strip " + strip.name + ": " + found.text + kRemedy, found.remedy}});
+    findings.push_back({true, {"strip " + strip.name + ": " + found.text + kRemedy, found.hint}});
   }
 }
 
@@ -300,7 +300,7 @@ void TrajectoryPlausibility::checkRays(std::vector<Finding>& findings) const {
     const Warning cause = found->cause();
     findings.push_back(
         {found->exceeds(kDisplacedRefused),
-         {text + (cause.text.empty() ? "" : "; " + cause.text) + kRemedy, cause.remedy}});
+         {text + (cause.text.empty() ? "" : "; " + cause.text) + kRemedy, cause.hint}});
     return;
   }
 }
@@ -316,8 +316,8 @@ HeightError TrajectoryPlausibility::heightOfStrips() const {
 void TrajectoryPlausibility::checkHeight(std::vector<Finding>& findings) const {
   const HeightError error = heightOfStrips();
   if (error.kind == HeightError::Kind::none) return;
-  const Remedy remedy = error.undulation ? Remedy::geoid : Remedy::none;
-  findings.push_back({error.kind == HeightError::Kind::gross, {error.text, remedy}, true});
+  const Hint hint = error.undulation ? Hint::geoid : Hint::none;
+  findings.push_back({error.kind == HeightError::Kind::gross, {error.text, hint}, true});
 }
 
 HeightError TrajectoryPlausibility::heightError() const {
@@ -355,7 +355,7 @@ Warnings TrajectoryPlausibility::check(bool force, bool force_height) const {
   Warnings warnings;
   for (const Finding& finding : findings()) {
     if (finding.refuse && !force && !(finding.height && force_height))
-      throw InputError(finding.warning.text, finding.warning.remedy);
+      throw InputError(finding.warning.text, finding.warning.hint);
     warnings.push_back(finding.warning);
   }
   return warnings;

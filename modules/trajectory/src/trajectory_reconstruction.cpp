@@ -99,7 +99,7 @@ std::string whyImpossible(const ReconstructedPath& path) {
 }
 
 /// Why a strip has no evidence at all; empty where it has.
-std::string whyNone(const PathEvidence::Counts& counts) {
+std::string exclusionReason(const PathEvidence::Counts& counts) {
   if (counts.points == counts.timeless)
     return counts.points == 0 ? "no points" : "its points have no GPS times";
   if (counts.rays > 0 || counts.angles > 0) return {};
@@ -246,7 +246,7 @@ ReconstructedPath TrajectoryReconstruction::reconstruct(const Strip& strip, cons
   path.name = strip.name;
   path.times = span;
   path.counts = strip.evidence.counts();
-  path.reason = whyNone(path.counts);
+  path.reason = exclusionReason(path.counts);
   if (!path.reason.empty()) return path;
   const bool solved = adjust(strip, span, path);
   if (solved) {

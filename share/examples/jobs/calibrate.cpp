@@ -7,13 +7,13 @@
 
 #include <pcl_als/calibration/survey_calibration.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/processing/flight_file.h>
+#include <pcl_als/processing/trajectory_loading.h>
 
 int main(int argc, char** argv) try {
   pcl_als::SurveyReader survey({argv + 4, argv + argc});
-  pcl_als::FlightFileOptions reading;
+  pcl_als::TrajectoryLoadingOptions reading;
   reading.crs = survey.reference().crs;  // of the points, for an SBET
-  const auto flight = pcl_als::readFlight(argv[1], reading).trajectory;
+  const auto flight = pcl_als::loadTrajectory(argv[1], reading).trajectory;
   pcl_als::CalibrationOptions options;
   options.control = pcl_als::readControl(argv[2]);
   const auto calibration = pcl_als::calibrateSurvey(survey, flight, options);

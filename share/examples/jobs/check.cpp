@@ -6,14 +6,14 @@
 #include <exception>
 #include <iostream>
 
+#include <pcl_als/processing/check_delivery.h>
 #include <pcl_als/processing/delivery_requirement.h>
-#include <pcl_als/processing/survey_check.h>
 #include <pcl_als/report/quality_report.h>
 
 int main(int argc, char** argv) try {
   pcl_als::SurveyReader survey({argv + 1, argv + argc});
   pcl_als::QualityReport report;
-  report.block = pcl_als::checkSurvey(survey, nullptr).block;
+  report.block = pcl_als::checkDelivery(survey, nullptr).block;
   report.quality_level = 2;  // of the USGS Lidar Base Specification
   std::cout << pcl_als::qualityText(report);
   return pcl_als::requireLevel(report.block, report.quality_level).kept ? 0 : 3;

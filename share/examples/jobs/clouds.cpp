@@ -18,8 +18,8 @@
 #include <pcl_als/io/strip_loader.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/class_model_file.h>
-#include <pcl_als/processing/flight_file.h>
-#include <pcl_als/processing/strip_check.h>
+#include <pcl_als/processing/delivery_check.h>
+#include <pcl_als/processing/trajectory_loading.h>
 #include <pcl_als/registration/iterative_closest_patch.h>
 
 namespace {
@@ -52,7 +52,7 @@ void correct(const pcl_als::CalibrationResult& calibration, const Flight& flight
 
 /// RMS of the offsets of all pairs along the normals, metres.
 double misfit(const std::vector<Strip>& strips) {
-  pcl_als::StripCheck<PointLidar> check;
+  pcl_als::DeliveryCheck<PointLidar> check;
   for (const Strip& strip : strips) check.addInputStrip(strip.cloud, strip.frame, strip.id);
   check.check();
   double sum = 0.0;
@@ -123,7 +123,7 @@ void draw(const Strip& strip, const char* file) {
 
 int main(int argc, char** argv) try {
   auto strips = pcl_als::loadStrips({argv + 5, argv + argc});
-  const Flight flight = pcl_als::readFlight(argv[1]).trajectory;
+  const Flight flight = pcl_als::loadTrajectory(argv[1]).trajectory;
   const auto model = pcl_als::readClassModel(argv[3]);
   const auto calibration = calibrated(strips, flight, argv[2]);
   const double before = misfit(strips);

@@ -8,12 +8,12 @@
 
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/file_correction.h>
-#include <pcl_als/processing/flight_file.h>
+#include <pcl_als/processing/trajectory_loading.h>
 
 int main(int argc, char** argv) try {
   const auto calibration = pcl_als::readCalibration(argv[2]);
   const auto flight =
-      pcl_als::readFlight(argv[1], pcl_als::flightFileOptions(calibration)).trajectory;
+      pcl_als::loadTrajectory(argv[1], pcl_als::trajectoryLoadingOptions(calibration)).trajectory;
   for (int i = 4; i < argc; ++i) {
     const std::filesystem::path strip = argv[i], output = argv[3] / strip.filename();
     const auto corrected = pcl_als::correctPointFile(strip, output, calibration, flight);

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include <pcl_als/processing/flight_file.h>
 #include <pcl_als/processing/intensity_job.h>
+#include <pcl_als/processing/trajectory_loading.h>
 #include <pcl_als/radiometry/atmosphere.h>
 
 int main(int argc, char** argv) try {
@@ -20,7 +20,7 @@ int main(int argc, char** argv) try {
   pcl_als::IntensityOptions options;
   options.settings.model.extinction_per_km = pcl_als::extinctionOf(air).total();
   options.settings.overlaps.estimate_gains = true;
-  const auto flight = pcl_als::readFlight(argv[1]).trajectory;
+  const auto flight = pcl_als::loadTrajectory(argv[1]).trajectory;
   const auto corrected = pcl_als::correctIntensity(strips, outputs, flight, options);
   for (std::size_t i = 0; i < corrected.run->strips().size(); ++i)
     std::cout << corrected.run->strips()[i] << ' ' << corrected.run->gain(i) << '\n';

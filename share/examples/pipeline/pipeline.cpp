@@ -22,7 +22,7 @@
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/strip_loader.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/processing/flight_file.h>
+#include <pcl_als/processing/trajectory_loading.h>
 #include <pcl_als/registration/point_to_patch.h>
 
 using pcl_als::PointLidar;
@@ -123,7 +123,7 @@ int main(int argc, char** argv) try {
     std::cerr << "usage: pipeline TRAJECTORY CONTROL.csv CALIBRATION.json OUT.pcd STRIP STRIP...\n";
     return EXIT_FAILURE;
   }
-  const Flight flight = pcl_als::readFlight(argv[1]).trajectory;
+  const Flight flight = pcl_als::loadTrajectory(argv[1]).trajectory;
   const std::vector<Strip> strips = pcl_als::loadStrips({argv + 5, argv + argc});
   const pcl_als::CalibrationResult calibration = calibrated(strips, flight, argv[2]);
   pcl_als::writeCalibration(argv[3], calibration);

@@ -5,7 +5,7 @@
 #include <exception>
 #include <iostream>
 
-#include <pcl_als/processing/survey_check.h>
+#include <pcl_als/processing/check_delivery.h>
 
 int main(int argc, char** argv) try {
   pcl_als::SurveyReader survey({argv + 1, argv + argc});
@@ -14,11 +14,11 @@ int main(int argc, char** argv) try {
       std::cerr << now.phase << ": " << now.text << '\n';
     return true;  // false cancels the job
   };
-  const auto check = pcl_als::checkSurvey(survey, nullptr, {}, progress);
+  const auto check = pcl_als::checkDelivery(survey, nullptr, {}, progress);
   for (const pcl_als::CheckedPair& pair : check.block.pairs)
     std::cout << pair.a << " & " << pair.b << ": RMSDz " << pair.assessment.vertical.rms << " m\n";
   return 0;
 } catch (const std::exception& error) {
-  std::cerr << error.what() << '\n';  // one line: file, fault, remedy
+  std::cerr << error.what() << '\n';  // one line: file, fault, hint
   return 2;
 }

@@ -13,12 +13,12 @@
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/strip_loader.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/processing/flight_file.h>
-#include <pcl_als/processing/strip_check.h>
+#include <pcl_als/processing/delivery_check.h>
+#include <pcl_als/processing/trajectory_loading.h>
 
 int main(int argc, char** argv) try {
   const auto strips = pcl_als::loadStrips({argv + 1, argv + argc});
-  const auto trajectory = pcl_als::readFlight("trajectory.csv").trajectory;
+  const auto trajectory = pcl_als::loadTrajectory("trajectory.csv").trajectory;
   pcl::PointCloud<pcl_als::PointLidar> common;
   // README
   pcl_als::SystemCalibration<pcl_als::PointLidar> calibration;
@@ -35,7 +35,7 @@ int main(int argc, char** argv) try {
   calibration.calibrate();
   pcl_als::writeCalibration("from_clouds.json", calibration.getResult());
   // end
-  pcl_als::StripCheck<pcl_als::PointLidar> check;
+  pcl_als::DeliveryCheck<pcl_als::PointLidar> check;
   for (const auto& strip : strips) {
     pcl_als::savePcd("cloud" + strip.id + ".pcd", strip);
     check.addInputStrip(strip.cloud, strip.frame, strip.id);

@@ -166,7 +166,7 @@ struct CalibrationSettings {
   /// Systems with parameters of their own; strips that no group names are of the first one. Empty:
   /// one system. UsageError from the engine for a strip that does not exist or is in two groups.
   std::vector<StripGroup> systems;
-  OwnUnknowns own;  ///< what systems have of their own
+  PerSystemParameters own;  ///< what systems have of their own
   /// Strips that are held fixed, by id or pass: of an earlier delivery that the block joins. They
   /// have no biases; their errors are those of their own trajectories, which have the a priori
   /// variances of the other strips, and one that all of them share. They are not corrected for

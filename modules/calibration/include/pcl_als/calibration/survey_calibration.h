@@ -18,7 +18,7 @@
 #include <pcl_als/common/point_file_info.h>
 #include <pcl_als/common/progress.h>
 #include <pcl_als/io/trajectory_io.h>
-#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/strip_assignment.h>
 #include <pcl_als/survey/survey_observer.h>
 #include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/trajectory.h>
@@ -51,7 +51,7 @@ struct CalibrationOptions {
   /// strips replace those of settings.shared_errors, except those that are kept. InputError where
   /// they cover none of the strips.
   std::vector<TrajectoryAccuracy> accuracy;
-  /// The trajectory is one of reconstructFlight(): lever arm and range bias are not determined.
+  /// The trajectory is one of reconstructTrajectory(): lever arm and range bias are not determined.
   bool reconstructed = false;
   /// Of a reconstructed trajectory: standard deviations of its own, which are not those of the
   /// errors that the points have.

@@ -24,10 +24,10 @@ namespace pcl_als {
  *
  * Each cloud is relative to its own LocalFrame; trajectory and control are in the ground frame
  * (east, north, up; metres). The coordinates of a cloud are floats: within 1 km of the frame's
- * origin they have steps of at most 0.06 mm, within 4 km (LocalFrame::kReach) of 0.25 mm. Such a
- * change has no larger effect on any pair, but it changes the choice of candidates: estimates from
- * LAS files and from clouds loaded from them differ by a few tenths of a standard deviation at most
- * (0.3 in a small block, tests). InputError where the steps exceed 2 mm.
+ * origin they have steps of at most 0.06 mm, within 4 km (LocalFrame::kMaximumExtent) of 0.25 mm.
+ * Such a change has no larger effect on any pair, but it changes the choice of candidates:
+ * estimates from LAS files and from clouds loaded from them differ by a few tenths of a standard
+ * deviation at most (0.3 in a small block, tests). InputError where the steps exceed 2 mm.
  *
  * The point type needs x, y, z (float) and gps_time (double). return_number and number_of_returns,
  * classification, and flags (bits of PointFlag) are used where the type has them; without them

@@ -118,7 +118,7 @@ struct ControlPointFit {
 
 /// What a calibration held fixed: strips of an earlier delivery (all of them together), or a
 /// reference surface. Nothing of it is estimated or corrected.
-struct HeldSurface {
+struct FixedSurface {
   std::string name;                 ///< "fixed strips", or the file of the surface
   std::vector<std::string> strips;  ///< the fixed strips; empty for a reference surface
   double std = 0.0;                 ///< a priori, of its points and of an area of it, metres
@@ -252,7 +252,7 @@ struct CalibrationResult {
   ResidualHistogram residuals;
   std::vector<ControlFit> control;
   std::vector<ControlPointFit> control_points;  ///< those that a strip sees
-  std::vector<HeldSurface> held;                ///< what was held fixed
+  std::vector<FixedSurface> held;               ///< what was held fixed
   std::vector<StripOffset> strip_offsets;       ///< of the strips that have pairs
   std::vector<StripErrors> strip_errors;        ///< of the strips that were calibrated with
   /// Where strip_errors are largest, by their effect on the ground; only what exceeds the ordinary.
@@ -260,7 +260,7 @@ struct CalibrationResult {
   std::optional<ErrorLevels> error_levels;  ///< as estimated; none: not known
   std::vector<std::string> observability;   ///< what is weakly determined, why, and what would help
   Warnings warnings;
-  std::vector<LeftOutPoints> left_out;  ///< points that took no part
+  std::vector<ExcludedPoints> excluded;  ///< points that took no part
   std::vector<std::string> inputs;
   std::string crs;  ///< of the ground frame, WKT or "EPSG:…"; empty: not known
 

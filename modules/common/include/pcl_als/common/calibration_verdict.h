@@ -21,8 +21,8 @@ enum class CalibrationStatus {
 
 /** \brief The verdict on a calibration: a status and the reason in one sentence.
  *
- * A check that finds a reason against applying a result adds it with object(). Tools that apply a
- * calibration refuse one that is not usable() unless the user insists.
+ * A check that finds a reason against applying a result adds it with downgrade(). Tools that apply
+ * a calibration refuse one that is not usable() unless the user insists.
  */
 struct CalibrationVerdict {
   CalibrationStatus status = CalibrationStatus::usable;
@@ -31,7 +31,7 @@ struct CalibrationVerdict {
   bool usable() const { return status == CalibrationStatus::usable; }
   /// Adds a reason against applying the result. The most serious status is kept; the reasons follow
   /// one another, separated by semicolons. A reason for being usable is replaced.
-  void object(CalibrationStatus against, const std::string& why);
+  void downgrade(CalibrationStatus against, const std::string& why);
   /// "not converged: the adjustment did not converge in 20 iterations"
   std::string text() const;
 };

@@ -65,7 +65,7 @@ struct ErrorSourceInfo {
   std::string_view title;  ///< for people
   std::string_view unit;   ///< "ms", "arcsec", "m", "ppm" or "1"
   double internal_per_unit;
-  std::string_view remedy;  ///< what to do about it
+  std::string_view hint;  ///< what to do about it
 };
 
 /// All, in order.
@@ -116,7 +116,7 @@ struct ErrorFinding {
   double effect = 0.0;       ///< metres, on the ground at the edge of the highest swath
   bool determined = false;   ///< whether the data can tell presence from absence
   bool corrected = false;    ///< whether the correction of points removes it
-  std::string evidence, remedy;
+  std::string evidence, hint;
 };
 
 }  // namespace pcl_als

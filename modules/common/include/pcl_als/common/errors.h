@@ -11,7 +11,7 @@ namespace pcl_als {
 
 /// What a caller may set to go on where an input is refused, or to follow a warning. Messages do
 /// not name options: a tool adds the name of its own.
-enum class Remedy {
+enum class Hint {
   none,
   force,             ///< to go on all the same, with a warning
   force_level,       ///< force, which takes the sensor as level
@@ -42,12 +42,12 @@ enum class Remedy {
 /// option and what to do, printable() whatever it quotes.
 class Error : public std::runtime_error {
  public:
-  explicit Error(const std::string& message, Remedy remedy = Remedy::none)
-      : std::runtime_error(printable(message)), remedy_(remedy) {}
-  Remedy remedy() const { return remedy_; }
+  explicit Error(const std::string& message, Hint hint = Hint::none)
+      : std::runtime_error(printable(message)), remedy_(hint) {}
+  Hint hint() const { return remedy_; }
 
  private:
-  Remedy remedy_;
+  Hint remedy_;
 };
 
 /// A wrong argument, option or parameter value. Tools end with exit status 1.

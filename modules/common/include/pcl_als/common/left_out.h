@@ -10,7 +10,7 @@
 namespace pcl_als {
 
 /// Why points take no part in a computation.
-enum class LeftOutReason {
+enum class ExclusionReason {
   excluded,           ///< the strip was not chosen by the user
   zero_time,          ///< GPS time 0 among points that have times
   before_trajectory,  ///< measured before the trajectory's first sample
@@ -24,20 +24,20 @@ enum class LeftOutReason {
 };
 
 /// "excluded", "zero_time", …: the word of result files.
-std::string_view toString(LeftOutReason reason);
+std::string_view toString(ExclusionReason reason);
 
 /// Points of one strip that were left out for one reason.
-struct LeftOutPoints {
+struct ExcludedPoints {
   std::string strip;
-  LeftOutReason reason = LeftOutReason::excluded;
+  ExclusionReason reason = ExclusionReason::excluded;
   std::uint64_t points = 0;
   std::uint64_t of = 0;  ///< points of the strip
 };
 
 /// "strip 66: 812 of 912345 points (0.09 %) left out: measured before the trajectory begins".
-std::string describe(const LeftOutPoints& part);
+std::string describe(const ExcludedPoints& part);
 
 /// describe() of each part, in order.
-std::vector<std::string> describe(const std::vector<LeftOutPoints>& parts);
+std::vector<std::string> describe(const std::vector<ExcludedPoints>& parts);
 
 }  // namespace pcl_als

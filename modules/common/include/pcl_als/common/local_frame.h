@@ -26,7 +26,7 @@ struct LocalFrame {
   std::string crs;
 
   /// Distance from its origin (metres, in plan) up to which a float cloud is kept in one part.
-  static constexpr double kReach = 4000.0;
+  static constexpr double kMaximumExtent = 4000.0;
 
   /// A frame whose origin is the multiple of 10 m nearest to a ground point.
   static LocalFrame around(const Eigen::Vector3d& ground, std::string crs = {});

@@ -14,12 +14,12 @@ struct PitchAndCrab {
 /** \brief Pitch and crab of the laser unit over time, as they were found from points.
  *
  * Linear in time between the knots of a pass (an uninterrupted piece of flight), constant for
- * kReach before its first and after its last knot. Times are those of the trajectory, seconds.
- * Memory: 24 bytes for each knot, ten knots per second of flight.
+ * kMaximumExtrapolation before its first and after its last knot. Times are those of the
+ * trajectory, seconds. Memory: 24 bytes for each knot, ten knots per second of flight.
  */
 class RecoveredAttitude {
  public:
-  static constexpr double kReach = 2.0;  ///< seconds
+  static constexpr double kMaximumExtrapolation = 2.0;  ///< seconds
 
   struct Knot {
     double time = 0.0;  ///< seconds

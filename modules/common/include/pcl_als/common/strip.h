@@ -11,7 +11,8 @@
 
 namespace pcl_als {
 
-/// One flight line, or a part of it that lies within LocalFrame::kReach of the frame's origin.
+/// One flight line, or a part of it that lies within LocalFrame::kMaximumExtent of the frame's
+/// origin.
 template <typename PointT = PointLidar>
 struct Strip {
   std::string id;  ///< name used in pairs and results; the point source id where the file has one

@@ -39,7 +39,7 @@ inline constexpr int kSystemUnknownCount = kSystemParameterCount + 3;
 using SystemUnknowns = Eigen::Matrix<double, kSystemUnknownCount, 1>;
 
 /// Which of them may differ from those of the first system.
-struct OwnUnknowns {
+struct PerSystemParameters {
   std::vector<SystemParameter> parameters{
       SystemParameter::boresight_pitch, SystemParameter::boresight_roll,
       SystemParameter::boresight_heading, SystemParameter::range_bias,
@@ -49,6 +49,6 @@ struct OwnUnknowns {
 
 /// From "boresight,range_bias,offset": names of parameters; "boresight" and "lever_arm" stand for
 /// three each. UsageError for an unknown name.
-OwnUnknowns ownUnknowns(std::string_view text);
+PerSystemParameters ownUnknowns(std::string_view text);
 
 }  // namespace pcl_als

@@ -14,11 +14,11 @@ namespace pcl_als {
 /// set about it.
 struct Warning {
   std::string text;
-  Remedy remedy = Remedy::none;
+  Hint hint = Hint::none;
 
   // Implicit, because most warnings are texts only.
-  Warning(std::string what, Remedy with = Remedy::none) : text(std::move(what)), remedy(with) {}
-  Warning(const char* what, Remedy with = Remedy::none) : text(what), remedy(with) {}
+  Warning(std::string what, Hint with = Hint::none) : text(std::move(what)), hint(with) {}
+  Warning(const char* what, Hint with = Hint::none) : text(what), hint(with) {}
 };
 using Warnings = std::vector<Warning>;
 

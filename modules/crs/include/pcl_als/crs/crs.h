@@ -75,7 +75,7 @@ bool coordinatesDiffer(const std::string& a, const std::string& b, const Eigen::
  */
 void requireProjectedCrs(const std::string& crs, const std::string& what);
 
-/// InputError with the remedy for a file whose coordinates are degrees or geocentric.
+/// InputError with the hint for a file whose coordinates are degrees or geocentric.
 void requireMapCoordinates(const PointFileInfo& info);
 
 /** \brief A CRS as WKT 1 of one line; empty in a build without PROJ. UsageError for a text that

@@ -21,9 +21,9 @@ struct CurvePanels {
   std::vector<Panel> panels;
   bool common_x = true;  ///< false: every panel has its own range
 
-  static constexpr std::size_t kMost = 16;
+  static constexpr std::size_t kMaximumPanels = 16;
   /// Keeps the panels with the largest absolute values, in their order.
-  void keepLargest(std::size_t most = kMost);
+  void keepLargest(std::size_t most = kMaximumPanels);
 };
 
 /// Series of the same name have the same colour in all panels; before and after their own.

@@ -105,8 +105,8 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   bool getStripCorrections() const { return strip_corrections_; }
 
   /// Pitch and crab at times of which the calibration has none (AttitudeRecovery); default none.
-  void setFurtherAttitude(const RecoveredAttitude& attitude) { further_attitude_ = attitude; }
-  const RecoveredAttitude& getFurtherAttitude() const { return further_attitude_; }
+  void setFallbackAttitude(const RecoveredAttitude& attitude) { fallback_attitude_ = attitude; }
+  const RecoveredAttitude& getFallbackAttitude() const { return fallback_attitude_; }
 
   /// Applies the biases instead of removing them; default false.
   void setInvert(bool invert) { invert_ = invert; }
@@ -150,7 +150,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   std::shared_ptr<const Trajectory> trajectory_;
   std::optional<CalibrationResult> calibration_;
   std::optional<SystemCorrection> correction_;
-  RecoveredAttitude further_attitude_;
+  RecoveredAttitude fallback_attitude_;
   LocalFrame frame_;
   SystemVector biases_ = SystemVector::Zero();
   TimeAlignment alignment_;

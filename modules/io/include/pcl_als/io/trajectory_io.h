@@ -115,7 +115,7 @@ struct TrajectoryFile {
  * the ellipsoid or geocentric; the latter two are projected to the CRS of the points with PROJ, and
  * headings from true north turned by the meridian convergence.
  *
- * InputError names file, line (or record) and column, and has the remedy where something may be
+ * InputError names file, line (or record) and column, and has the hint where something may be
  * stated. Geographic coordinates without TrajectoryReading::crs are a UsageError.
  */
 TrajectoryFile readTrajectoryFile(const std::filesystem::path& path,

@@ -75,7 +75,7 @@ std::string describeBiases(const CalibrationResult& calibration);
  * To another flight than that of the calibration (isOfAnotherFlight()) its instrument part is
  * applied.
  *
- * \param flight as delivered (flightFileOptions())
+ * \param flight as delivered (trajectoryLoadingOptions())
  *
  * With standard deviations, local surfaces are found from the points within a radius that holds 16
  * of them (LocalSurfaces), window by window; memory is that of some windows of 131,072 points.

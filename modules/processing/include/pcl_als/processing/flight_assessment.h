@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <pcl_als/common/warning.h>
-#include <pcl_als/processing/flight_file.h>
+#include <pcl_als/processing/trajectory_loading.h>
 #include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/scanner_detection.h>
 

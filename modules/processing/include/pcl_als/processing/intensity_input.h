@@ -15,7 +15,7 @@
 #include <pcl_als/common/strip.h>
 #include <pcl_als/io/strip_naming.h>
 #include <pcl_als/las/las_file.h>
-#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/strip_assignment.h>
 #include <pcl_als/survey/swath_track.h>
 
 namespace pcl_als {
@@ -52,8 +52,8 @@ struct IntensitySurvey {
 
 /// Specification of a window.
 struct WindowRequest {
-  const StripArrangement* arrangement = nullptr;  ///< needed: the strips of the points
-  std::size_t file = 0;                           ///< place of the input in it
+  const StripAssignment* arrangement = nullptr;  ///< needed: the strips of the points
+  std::size_t file = 0;                          ///< place of the input in it
   /// Whether surfaces will be computed: points of other windows within this distance (metres) of
   /// the points of each source are included; sources without a margin have none.
   bool surfaces = true;

@@ -50,7 +50,7 @@ struct IntensityResult {
   IntensityOutcome outcome{0};
   std::optional<OverlapResult> overlaps;     ///< where strips were compared
   std::optional<ReferenceResult> reference;  ///< where there are targets
-  std::vector<LeftOutPoints> left_out;       ///< points that stay as they are
+  std::vector<ExcludedPoints> excluded;      ///< points that stay as they are
   Warnings warnings;
   /// The reason for which the result is not reliable, in one line; empty where it is.
   std::string unreliable;

@@ -55,7 +55,7 @@ struct IntensityCounts {
   std::uint64_t rounded_to_zero = 0;  ///< not 0 before, under 0.5 after
   std::vector<std::uint64_t> labels;  ///< points of each label of the strips' arrangement
   /// Points of strips in use that no trajectory covers, by label and reason.
-  std::map<std::pair<std::size_t, LeftOutReason>, std::uint64_t> uncovered;
+  std::map<std::pair<std::size_t, ExclusionReason>, std::uint64_t> uncovered;
   void merge(const IntensityCounts& other);
   /// All counts, for another process.
   void put(ByteWriter& out) const;
@@ -106,14 +106,14 @@ class IntensityRun {
   const Warnings& warnings() const { return warnings_; }
   const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
   const TimeAlignment& timeAlignment(std::size_t file) const { return times_[file]; }
-  const StripArrangement& arrangement() const { return survey_->arrangement(); }
+  const StripAssignment& arrangement() const { return survey_->arrangement(); }
   const PointFileSources& sources(std::size_t file) const { return survey_->files()[file].sources; }
   /// Whether each point source id of a file is one strip in use.
   bool allChosen(std::size_t file) const;
   /// The reason for which a point of a file with this time has no trajectory.
-  LeftOutReason whyUncovered(std::size_t file, double time) const;
+  ExclusionReason whyUncovered(std::size_t file, double time) const;
   /// The points that stay unchanged, from the counts of all files.
-  std::vector<LeftOutPoints> leftOut(const IntensityCounts& counts) const;
+  std::vector<ExcludedPoints> excludedPoints(const IntensityCounts& counts) const;
   double saturation() const { return saturation_; }
   double cellSize() const { return cell_size_; }
   double radius(int strip) const { return radii_[static_cast<std::size_t>(strip)]; }

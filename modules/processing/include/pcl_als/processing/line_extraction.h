@@ -10,7 +10,7 @@
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/common/progress.h>
 #include <pcl_als/photogrammetry/roof_lines.h>
-#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/strip_assignment.h>
 
 namespace pcl_als {
 

@@ -18,7 +18,7 @@ namespace pcl_als {
 /// Two strips to align.
 struct AlignmentPair {
   StripPart source, target;
-  std::vector<LeftOutPoints> left_out;
+  std::vector<ExcludedPoints> excluded;
   bool measured = false;  ///< the boxes are those of points; otherwise those that headers state
 };
 
@@ -39,8 +39,8 @@ struct PairAlignment {
 
 /// Aligns the source with the target by ICPatch. InputError for strips that do not overlap and for
 /// files that cannot be used together.
-PairAlignment alignPair(const AlignmentPair& pair, PatchAlignmentSettings settings,
-                        const ProgressCallback& progress = {});
+PairAlignment registerPair(const AlignmentPair& pair, PatchAlignmentSettings settings,
+                           const ProgressCallback& progress = {});
 
 /// The reason for which an alignment is not reliable, in one line.
 std::string unreliability(const PatchAlignmentResult& result);

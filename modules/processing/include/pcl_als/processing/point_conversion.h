@@ -12,7 +12,7 @@
 #include <pcl_als/common/progress.h>
 #include <pcl_als/io/point_window.h>
 #include <pcl_als/las/las_version.h>
-#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/strip_assignment.h>
 
 namespace pcl_als {
 
@@ -43,7 +43,7 @@ struct PointConversionResult {
     std::uint64_t points = 0;
   };
   std::vector<Output> outputs;
-  std::vector<LeftOutPoints> left_out;  ///< of strips that were not chosen, and in turns
+  std::vector<ExcludedPoints> excluded;  ///< of strips that were not chosen, and in turns
   std::vector<std::string> remarks;  ///< values that a format does not store, files without points
 };
 

@@ -38,10 +38,10 @@ struct DeviationSummary {
 class DeviationCells {
  public:
   /// \param minimum, maximum box of the points as delivered, metres; those that a correction moves
-  /// by less than kReach beyond it are still within the grid
+  /// by less than kMargin beyond it are still within the grid
   /// \param cell side of a cell, metres
   DeviationCells(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum, double cell);
-  static constexpr double kReach = 50.0;
+  static constexpr double kMargin = 50.0;
 
   void add(const std::vector<PointDeviation>& points);
   /// Bands sigma_horizontal and sigma_vertical (metres), of the cells with points.

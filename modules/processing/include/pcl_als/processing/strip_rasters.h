@@ -27,7 +27,7 @@ struct RasterInput {
   std::vector<std::string> remarks;
   /// The same files: all points, or those of chooseStrips().
   std::shared_ptr<const SurveyReader> survey;
-  std::vector<LeftOutPoints> left_out;
+  std::vector<ExcludedPoints> excluded;
 };
 
 /** \brief Reads the coordinates of every file once, because the box in a header may be wrong.

@@ -8,7 +8,7 @@
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/progress.h>
-#include <pcl_als/processing/flight_file.h>
+#include <pcl_als/processing/trajectory_loading.h>
 
 namespace pcl_als {
 

@@ -12,9 +12,9 @@ namespace pcl_als {
 
 /// The rigid motion of strip a onto strip b (ICPatch) over the areas in which both have points;
 /// each point is used once, in the area that contains it. Memory: 12 bytes per point, and
-/// alignPatches().
-PatchAlignmentResult alignStrips(const std::vector<AreaOffsets>& areas, int a, int b,
-                                 const PatchAlignmentSettings& settings);
+/// registerPatches().
+PatchAlignmentResult registerStrips(const std::vector<AreaOffsets>& areas, int a, int b,
+                                    const PatchAlignmentSettings& settings);
 
 const char* toString(PatchAlignmentResult::Status status);
 

@@ -16,7 +16,7 @@ namespace pcl_als {
  *
  * Points of the source are compared with TIN patches of the target and vice versa, with modified
  * weights, for a rigid motion and optionally a scale, robustly and from coarse to fine; see
- * alignPatches(). For surfaces with one height at a plan position, z up, metres.
+ * registerPatches(). For surfaces with one height at a plan position, z up, metres.
  *
  * Settings of pcl::Registration that apply: setMaxCorrespondenceDistance (largest distance of the
  * surfaces at the initial motion, metres; default 15), setMaximumIterations (of the fine stage;

@@ -45,8 +45,8 @@ struct PatchAlignmentSettings {
  * Exchanging source and target gives the inverse motion. Memory: about 250 bytes for each
  * triangulated point, 16 for each cell of some five points.
  */
-PatchAlignmentResult alignPatches(const PointView& source, const PointView& target,
-                                  const PatchAlignmentSettings& settings = {},
-                                  const Eigen::Affine3d& guess = Eigen::Affine3d::Identity());
+PatchAlignmentResult registerPatches(const PointView& source, const PointView& target,
+                                     const PatchAlignmentSettings& settings = {},
+                                     const Eigen::Affine3d& guess = Eigen::Affine3d::Identity());
 
 }  // namespace pcl_als

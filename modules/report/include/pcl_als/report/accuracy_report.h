@@ -22,7 +22,7 @@ struct AccuracyReport {
   std::optional<AccuracyResult> other;
   std::optional<AccuracyComparison> comparison;
   std::vector<std::string> inputs, remarks;
-  std::vector<LeftOutPoints> left_out;  ///< points of strips that were left out
+  std::vector<ExcludedPoints> excluded;  ///< points of strips that were left out
 };
 
 /// The accuracy of a classification from a file of a confusion matrix or of check points, and its

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/processing/delivery_check.h>
+#include <pcl_als/processing/delivery_checker.h>
 
 namespace pcl_als {
 

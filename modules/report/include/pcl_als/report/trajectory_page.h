@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/processing/flight_reconstruction.h>
+#include <pcl_als/processing/trajectory_from_points.h>
 #include <pcl_als/report/report_origin.h>
 
 namespace pcl_als {
@@ -24,7 +24,7 @@ class TrajectoryPage {
   /// ReconstructionOptions::observer, for the map; the page must exist as long as it is called.
   SurveyObserver observer();
   /// Writes the page into the folder of \a origin. \a files: of the points.
-  void write(const ReportOrigin& origin, const ReconstructedFlight& flight,
+  void write(const ReportOrigin& origin, const ReconstructedTrajectory& flight,
              const std::vector<std::string>& files) const;
 
  private:

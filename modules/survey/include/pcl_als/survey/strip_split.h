@@ -13,9 +13,9 @@ namespace pcl_als {
 
 /// A stretch of time between cuts, seconds: one flight line, or what lies between two.
 struct TimeStretch {
-  double from = 0.0, to = 0.0;            ///< times of its first and last point
-  std::optional<LeftOutReason> left_out;  ///< in_turn or hovering; empty: a flight line
-  bool isLine() const { return !left_out; }
+  double from = 0.0, to = 0.0;              ///< times of its first and last point
+  std::optional<ExclusionReason> excluded;  ///< in_turn or hovering; empty: a flight line
+  bool isLine() const { return !excluded; }
 };
 
 /** \brief Divides points without strip numbers into flight lines.

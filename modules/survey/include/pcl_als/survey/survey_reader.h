@@ -20,7 +20,7 @@
 #include <pcl_als/common/progress.h>
 #include <pcl_als/common/shared_work.h>
 #include <pcl_als/io/point_reference.h>
-#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/strip_assignment.h>
 #include <pcl_als/survey/survey_input.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -31,7 +31,7 @@ namespace pcl_als {
  * All jobs on strips read their points through this class; a "file" is any SurveyInput, such as a
  * cloud from makeCloudInput().
  *
- * Strips are those of StripArrangement, divided by the channel of the scanner where
+ * Strips are those of StripAssignment, divided by the channel of the scanner where
  * StripChoice::by_channel asks for it; points that it leaves out are counted and not passed on.
  *
  * Points are columns of a PointChunk: positions in metres in the ground frame (the CRS of
@@ -50,7 +50,7 @@ class SurveyReader {
   /// Points [from, to) of a chunk, all of one strip, with every field.
   struct Run {
     int strip;          ///< index among strips(); -1: left out (runAt() only)
-    std::size_t label;  ///< index among StripArrangement::labels()
+    std::size_t label;  ///< index among StripAssignment::labels()
     std::size_t file;   ///< index among files()
     const PointChunk& chunk;
     std::size_t from, to;
@@ -132,7 +132,7 @@ class SurveyReader {
   std::vector<TimeRange> observedTimes() const;
 
   const std::vector<SurveyedFile>& files() const { return *files_; }
-  const StripArrangement& arrangement() const { return *arrangement_; }
+  const StripAssignment& arrangement() const { return *arrangement_; }
 
   /// Called during read(), by one thread at a time, with the share of the points that were read,
   /// 0 … 1; an exception of it ends the reading. Empty: none.
@@ -162,14 +162,14 @@ class SurveyReader {
    *
    * May be called by several threads at once, where no progress is set.
    */
-  std::vector<LeftOutPoints> read(const Visitor& visit, const Reading& reading) const;
-  std::vector<LeftOutPoints> read(const Visitor& visit) const { return read(visit, Reading()); }
+  std::vector<ExcludedPoints> read(const Visitor& visit, const Reading& reading) const;
+  std::vector<ExcludedPoints> read(const Visitor& visit) const { return read(visit, Reading()); }
 
   /// The points of each strip, and those that are left out.
   struct Contents {
     std::vector<std::uint64_t> points;       ///< by strip
     std::vector<Eigen::AlignedBox3d> boxes;  ///< of these, metres
-    std::vector<LeftOutPoints> left_out;
+    std::vector<ExcludedPoints> excluded;
 
     std::uint64_t pointCount() const;
     Eigen::AlignedBox3d box() const;
@@ -206,7 +206,7 @@ class SurveyReader {
   /// Groups of these files.
   Groups groupsOf(const Reading& reading, bool one_after_the_other) const;
   SharedItems sharesOf(const Groups& groups, Communicator* processes) const;
-  std::vector<LeftOutPoints> readByFirst(const Visitor& visit, Reading reading) const;
+  std::vector<ExcludedPoints> readByFirst(const Visitor& visit, Reading reading) const;
   /// Reads some groups of files and counts points by group and label.
   void readGroups(const Groups& groups, const std::vector<std::size_t>& chosen,
                   const Visitor& visit, const Reading& reading,
@@ -223,7 +223,7 @@ class SurveyReader {
   std::vector<SurveyInput> inputs_;
   /// The arrangement refers to it; in its place when the reader is moved.
   std::unique_ptr<std::vector<SurveyedFile>> files_;
-  std::optional<StripArrangement> arrangement_;
+  std::optional<StripAssignment> arrangement_;
   PointReference reference_;
   std::vector<TimeAlignment> times_;
   std::vector<std::string> strips_;

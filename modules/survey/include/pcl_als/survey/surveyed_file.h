@@ -27,7 +27,7 @@ struct SurveyedFile {
   std::string strip;  ///< strip of all its points; empty: strips are named by StripNaming
 };
 
-/// What StripArrangement needs of a file where strips are not divided.
+/// What StripAssignment needs of a file where strips are not divided.
 SurveyedFile withoutTracks(const PointFileSources& sources);
 
 /// Reads a file once; memory: see SwathTrack. InputError for a file that cannot be read.

@@ -15,7 +15,7 @@ struct PointColumns {
   /// Digital numbers; null: none. Needed where a range error depends on it (ErrorSource).
   const float* intensity = nullptr;
   /// Of the mirror: 1 to the left, -1 to the right; null: unknown. Needed for its torsion.
-  const std::int8_t* turning = nullptr;
+  const std::int8_t* scan_direction = nullptr;
   /// Point source id, and channel of the scanner in the field that divides the strips of a
   /// calibration (SystemLookup::channelField()); null: not recorded. Needed where a calibration has
   /// several systems or fixed strips.

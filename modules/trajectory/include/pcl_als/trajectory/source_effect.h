@@ -21,7 +21,7 @@ using SourceEffects = Eigen::Matrix<double, 3, kErrorSourceCount>;
 struct SourceReading {
   double time = 0.0;       ///< seconds, on the trajectory's clock
   float intensity = 0.0F;  ///< digital number
-  float turning =
+  float scan_direction =
       0.0F;  ///< of the mirror: 1 to the left, -1 to the right, 0 unknown; mean of points
 };
 

@@ -44,7 +44,7 @@ class SystemCorrection {
     bool force = false;              ///< accept a calibration whose verdict is not usable
     /// Pitch and crab at times of which the calibration has none (other flights, files of earlier
     /// versions): AttitudeRecovery::Outcome::attitude.
-    RecoveredAttitude further_attitude;
+    RecoveredAttitude fallback_attitude;
   };
 
   /// \a samples: the trajectory as delivered, with attitude where it has one. UsageError for a

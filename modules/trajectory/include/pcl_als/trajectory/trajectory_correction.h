@@ -25,9 +25,9 @@ struct CorrectedTrajectory {
   /// calibration states none.
   std::vector<Eigen::Vector3d> position_std, angles_std;
   std::string flight_remark;  ///< SystemCorrection::flightRemark()
-  std::size_t left_out = 0;   ///< samples that the flight does not cover
+  std::size_t excluded = 0;   ///< samples that the flight does not cover
   /// Strip corrections hold angles, and the samples have no attitude that they could be applied to.
-  bool angles_left_out = false;
+  bool angles_excluded = false;
 };
 
 /** \brief Corrects the samples of a trajectory by a calibration.

@@ -105,7 +105,7 @@ class TrajectoryPlausibility {
 
   struct Finding {
     bool refuse = false;  ///< results would be wrong; otherwise only suspicious
-    Warning warning;      ///< what is wrong, the likely cause and the remedy
+    Warning warning;      ///< what is wrong, the likely cause and the hint
     bool height = false;  ///< of the height of the trajectory
   };
   std::vector<Finding> findings() const;

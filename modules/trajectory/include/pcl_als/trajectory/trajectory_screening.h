@@ -41,7 +41,7 @@ struct TrajectoryScreening {
 
   std::size_t outlierCount() const;
   bool empty() const { return outliers.empty() && long_runs.empty(); }
-  /// Why the trajectory cannot be used, with the first samples concerned and the remedy; empty
+  /// Why the trajectory cannot be used, with the first samples concerned and the hint; empty
   /// where it can.
   std::string objection(const SampleName& name = &sampleNumber) const;
   /// "3 of 908 samples contradict their neighbours and are left out: line 12 (401500.125 s):

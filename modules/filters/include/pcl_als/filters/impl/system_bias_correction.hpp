@@ -26,7 +26,7 @@ SystemCorrection SystemBiasCorrection<PointT>::usedCorrection() const {
   if (!trajectory_) throw UsageError("SystemBiasCorrection: no trajectory is set");
   SystemCorrection correction =
       calibration_ ? SystemCorrection(*calibration_, trajectory_,
-                                      {strip_corrections_, invert_, false, further_attitude_})
+                                      {strip_corrections_, invert_, false, fallback_attitude_})
                    : SystemCorrection(biases_, trajectory_, invert_);
   correction.setTimeAlignment(alignment_);
   correction.setStrip(strip_id_);
@@ -76,7 +76,7 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
   std::vector<std::size_t> chosen;
   std::vector<double> columns[4], changes[3];
   std::vector<float> intensity;
-  std::vector<std::int8_t> turning;
+  std::vector<std::int8_t> scan_direction;
   std::vector<std::uint16_t> source;
   std::vector<std::uint8_t> channel;
   chosen.reserve(last - first);
@@ -93,7 +93,7 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
     columns[3].push_back(frame_.origin.z() + static_cast<double>(point.z));
     if constexpr (HasIntensity<PointT>::value) intensity.push_back(point.intensity);
     if constexpr (HasFlags<PointT>::value)
-      turning.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
+      scan_direction.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
     if (correction.systems().single()) continue;
     source.push_back(PointFields<PointT>{point}.sourceId());
     channel.push_back(channels.of(point, index));
@@ -104,7 +104,7 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
                             columns[2].data(),
                             columns[3].data(),
                             HasIntensity<PointT>::value ? intensity.data() : nullptr,
-                            HasFlags<PointT>::value ? turning.data() : nullptr,
+                            HasFlags<PointT>::value ? scan_direction.data() : nullptr,
                             HasSourceId<PointT>::value ? source.data() : nullptr,
                             channels.recorded() ? channel.data() : nullptr};
   const EffectColumns change{changes[0].data(), changes[1].data(), changes[2].data()};

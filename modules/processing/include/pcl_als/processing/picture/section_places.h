@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <pcl_als/drawing/section_search.h>
-#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/strip_assignment.h>
 
 namespace pcl_als {
 
@@ -20,9 +20,9 @@ struct StripDensity {
   /// Side of a cell with a given number of points on average, 0.5 to 20 m.
   double cellFor(double points_in_it) const;
 };
-/// In the order of StripArrangement::names().
+/// In the order of StripAssignment::names().
 std::vector<StripDensity> stripDensities(const std::vector<SurveyedFile>& files,
-                                         const StripArrangement& arrangement);
+                                         const StripAssignment& arrangement);
 
 /// Cells for a SectionSearch among the chosen strips, metres.
 double sectionCell(const std::vector<StripDensity>& strips, const std::vector<bool>& chosen);

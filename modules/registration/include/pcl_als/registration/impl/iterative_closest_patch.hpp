@@ -50,8 +50,9 @@ void IterativeClosestPatch<PointSource, PointTarget, Scalar>::computeTransformat
   if (guess.isIdentity()) local_guess.translation() = source_origin_ - target_origin_;
   const Eigen::Affine3d ground_guess =
       Eigen::Translation3d(target_origin_) * local_guess * Eigen::Translation3d(-source_origin_);
-  result_ = alignPatches(viewOf(*this->input_, this->indices_.get(), source_origin_),
-                         viewOf(*this->target_, nullptr, target_origin_), settings, ground_guess);
+  result_ =
+      registerPatches(viewOf(*this->input_, this->indices_.get(), source_origin_),
+                      viewOf(*this->target_, nullptr, target_origin_), settings, ground_guess);
   this->converged_ = result_.hasConverged();
   this->nr_iterations_ = result_.iterations;
   const Eigen::Affine3d found = this->converged_ ? getTransformation() : local_guess;
