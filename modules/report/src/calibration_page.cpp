@@ -297,7 +297,7 @@ void addSummary(HtmlReport& report, const CalibrationResult& result) {
 
 struct CalibrationPage::State {
   const SurveyReader* survey = nullptr;
-  std::unique_ptr<StripCoverage> coverage;
+  ObservedBlock block;
 };
 
 CalibrationPage::CalibrationPage(bool wanted) {
@@ -308,24 +308,20 @@ CalibrationPage::~CalibrationPage() = default;
 
 SurveyObserver CalibrationPage::observer() {
   if (!state_) return {};
-  const auto begin = [this](const SurveyReader& survey) {
+  SurveyObserver observer = state_->block.observer();
+  observer.begin = [this, collect = std::move(observer.begin)](const SurveyReader& survey) {
     state_->survey = &survey;
-    state_->coverage = std::make_unique<StripCoverage>(survey.corner(), survey.farCorner(),
-                                                       survey.strips().size());
+    collect(survey);
   };
-  const auto points = [this](int strip, const LidarReturn* points, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-      state_->coverage->add(points[i].position, static_cast<std::size_t>(strip));
-  };
-  return {begin, points};
+  return observer;
 }
 
 void CalibrationPage::write(const ReportOrigin& origin, const CalibrationResult& result,
                             const std::vector<SurveyArea>& areas,
                             const std::shared_ptr<const Trajectory>& trajectory) const {
-  HtmlReport report(origin.titleOr("Calibration of " +
-                                   std::to_string(state_->survey->strips().size()) + " strips"),
-                    origin.program);
+  HtmlReport report(
+      origin.titleOr("Calibration of " + std::to_string(state_->block.strips.size()) + " strips"),
+      origin.program);
   addVerdict(verdictOf(result), report);
   addSummary(report, result);
   addParameters(report, result);
@@ -333,7 +329,7 @@ void CalibrationPage::write(const ReportOrigin& origin, const CalibrationResult&
   addFits(report, result);
 
   addProfile(report, *state_->survey, result, trajectory);
-  addMap(origin.control, *state_->coverage, state_->survey->strips(), areas, report,
+  addMap(origin.control, *state_->block.coverage, state_->block.strips, areas, report,
          result.large_corrections);
   addOrigin(origin, result.inputs, report);
   report.write(origin.folder);

@@ -70,8 +70,7 @@ std::vector<std::string> inputsOf(const QualityReport& quality) {
 }  // namespace
 
 struct QualityPage::State {
-  std::vector<std::string> strips;
-  std::unique_ptr<StripCoverage> coverage;
+  ObservedBlock block;
 };
 
 QualityPage::QualityPage(bool wanted) {
@@ -81,23 +80,14 @@ QualityPage::QualityPage(bool wanted) {
 QualityPage::~QualityPage() = default;
 
 SurveyObserver QualityPage::observer() {
-  if (!state_) return {};
-  const auto begin = [this](const SurveyReader& survey) {
-    state_->strips = survey.strips();
-    state_->coverage = std::make_unique<StripCoverage>(survey.corner(), survey.farCorner(),
-                                                       survey.strips().size());
-  };
-  const auto points = [this](int strip, const LidarReturn* points, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-      state_->coverage->add(points[i].position, static_cast<std::size_t>(strip));
-  };
-  return {begin, points};
+  return state_ ? state_->block.observer() : SurveyObserver();
 }
 
 void QualityPage::write(const ReportOrigin& origin, const QualityReport& quality,
                         const std::vector<SurveyArea>& areas) const {
-  HtmlReport report(origin.titleOr("Check of " + std::to_string(state_->strips.size()) + " strips"),
-                    origin.program);
+  HtmlReport report(
+      origin.titleOr("Check of " + std::to_string(state_->block.strips.size()) + " strips"),
+      origin.program);
   addVerdict(verdictOf(quality), report);
   addWarnings(quality.block.warnings, report);
   const std::vector<QualityTable> tables = qualityTables(quality);
@@ -111,7 +101,7 @@ void QualityPage::write(const ReportOrigin& origin, const QualityReport& quality
     addQualityTable(tables.back(), report);
   }
   addSeparation(quality, report);
-  addMap(origin.control, *state_->coverage, state_->strips, areas, report);
+  addMap(origin.control, *state_->block.coverage, state_->block.strips, areas, report);
   addOrigin(origin, inputsOf(quality), report);
   report.write(origin.folder);
 }

@@ -3,8 +3,21 @@
 #include "report_parts.h"
 
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
+
+SurveyObserver ObservedBlock::observer() {
+  const auto begin = [this](const SurveyReader& survey) {
+    strips = survey.strips();
+    coverage = std::make_unique<StripCoverage>(survey.corner(), survey.farCorner(), strips.size());
+  };
+  const auto add = [this](int strip, const LidarReturn* points, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      coverage->add(points[i].position, static_cast<std::size_t>(strip));
+  };
+  return {begin, add};
+}
 
 std::string centimetres(double metres) {
   return numberText(100.0 * metres, 1) + " cm";

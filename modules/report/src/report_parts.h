@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include <pcl_als/drawing/block_map.h>
 #include <pcl_als/report/html_report.h>
 #include <pcl_als/report/report_origin.h>
+#include <pcl_als/survey/survey_observer.h>
 
 namespace pcl_als {
 
@@ -21,6 +23,15 @@ struct Verdict {
   VerdictGrade grade = VerdictGrade::attention;
   std::string headline;
   std::vector<std::string> sentences;
+};
+
+/// The strips of a survey and the cells that they cover, collected while a job reads the points.
+struct ObservedBlock {
+  std::vector<std::string> strips;
+  std::unique_ptr<StripCoverage> coverage;  ///< null until the survey is known
+
+  /// For the job that reads; this object must outlive it.
+  SurveyObserver observer();
 };
 
 /// "2.9 cm"

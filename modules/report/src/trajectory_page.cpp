@@ -174,8 +174,7 @@ Verdict verdictOf(const ReconstructedTrajectory& flight) {
 }  // namespace
 
 struct TrajectoryPage::State {
-  std::vector<std::string> strips;
-  std::unique_ptr<StripCoverage> coverage;
+  ObservedBlock block;
 };
 
 TrajectoryPage::TrajectoryPage(bool wanted) {
@@ -185,17 +184,7 @@ TrajectoryPage::TrajectoryPage(bool wanted) {
 TrajectoryPage::~TrajectoryPage() = default;
 
 SurveyObserver TrajectoryPage::observer() {
-  if (!state_) return {};
-  const auto begin = [this](const SurveyReader& survey) {
-    state_->strips = survey.strips();
-    state_->coverage = std::make_unique<StripCoverage>(survey.corner(), survey.farCorner(),
-                                                       survey.strips().size());
-  };
-  const auto points = [this](int strip, const LidarReturn* points, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-      state_->coverage->add(points[i].position, static_cast<std::size_t>(strip));
-  };
-  return {begin, points};
+  return state_ ? state_->block.observer() : SurveyObserver();
 }
 
 void TrajectoryPage::write(const ReportOrigin& origin, const ReconstructedTrajectory& flight,
@@ -205,7 +194,7 @@ void TrajectoryPage::write(const ReportOrigin& origin, const ReconstructedTrajec
   addWarnings(flight.warnings, report);
   report.addSection("Paths");
   report.addTable(pathTable(flight));
-  addPathMap(flight, *state_->coverage, state_->strips, report);
+  addPathMap(flight, *state_->block.coverage, state_->block.strips, report);
   const CurvePanels stds = stdPanels(flight);
   report.addPicture(drawCurvePanels(stds, stds.panels.size() > 4 ? kTall : kWide),
                     "Standard deviations of the position over time: large where the ground shows "
