@@ -52,6 +52,14 @@ std::vector<int> scanDirections(const std::vector<double>& times,
   return directions;
 }
 
+/// A square in the middle of an area, with a share of its surface and the same margin.
+SurveyArea middleOf(const SurveyArea& area, double share) {
+  SurveyArea middle = area;
+  middle.size *= std::sqrt(share);
+  middle.minimum.array() += 0.5 * (area.size - middle.size);
+  return middle;
+}
+
 }  // namespace
 
 std::vector<int> AreaMatcher::StripPart::values(PointField field,
@@ -73,9 +81,11 @@ std::map<int, std::map<int, std::size_t>> AreaMatcher::valuesOf(
   return counts;
 }
 
-AreaMatcher AreaMatcher::divided(const FieldDivision& division, std::size_t candidates,
-                                 double resolution, const Trajectory& trajectory) const {
-  AreaMatcher matcher(area_, corrected_for_.size() * division.parts());
+AreaMatcher AreaMatcher::divided(const FieldDivision& division, double share,
+                                 std::size_t candidates, double resolution,
+                                 const Trajectory& trajectory) const {
+  const SurveyArea middle = middleOf(area_, share);
+  AreaMatcher matcher(middle, corrected_for_.size() * division.parts());
   matcher.criterion_ = criterion_;
   matcher.source_scale_ = source_scale_;
   const std::vector<int>& values = division.values;
@@ -83,6 +93,7 @@ AreaMatcher AreaMatcher::divided(const FieldDivision& division, std::size_t cand
     if (part.held()) continue;
     const std::vector<int> of_points = part.values(division.field, trajectory);
     for (std::size_t i = 0; i < part.biased.size(); ++i) {
+      if (!middle.covers(part.biased[i])) continue;
       const auto found = std::lower_bound(values.begin(), values.end(), of_points[i]);
       if (found == values.end() || *found != of_points[i]) continue;
       const auto k = static_cast<std::size_t>(found - values.begin());

@@ -125,8 +125,9 @@ class AreaMatcher {
                                                      const Trajectory& trajectory) const;
   /// The points of strips that are not held fixed, divided by the value of a field, with surfaces
   /// by the criterion of this matcher, see prepare().
-  AreaMatcher divided(const FieldDivision& division, std::size_t candidates, double resolution,
-                      const Trajectory& trajectory) const;
+  /// \param share of the area, a square in its middle
+  AreaMatcher divided(const FieldDivision& division, double share, std::size_t candidates,
+                      double resolution, const Trajectory& trajectory) const;
 
   /// Which points are paired with patches: all candidates, or those of the observations last kept.
   enum class Points { candidates, kept };

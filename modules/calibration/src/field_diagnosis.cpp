@@ -71,19 +71,23 @@ std::vector<StripPair> pairsOfParts(const FieldDivision& division, const SurveyB
 std::vector<AreaObservations> observationsOf(const FieldDivision& division,
                                              const AreaSample& sample,
                                              const Corrections& corrections) {
-  constexpr std::size_t kLeastCandidates = 20;  // of a part, in an area
+  constexpr std::size_t kLeastCandidates = 20;   // of a part, in an area
+  constexpr double kPairsForDifferences = 50e3;  // more determine no difference that matters
   const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   const StripCorrections of_strips(block, corrections);
   const auto of_parts = division.repeated(of_strips.strips());
   const std::vector<StripPair> pairs = pairsOfParts(division, block);
+  const AreaSample::Candidates all = sample.candidates();
+  const double share = std::min(1.0, kPairsForDifferences / static_cast<double>(all.pairs));
   // Every part forms pairs with every part of another strip: about as many in all as whole strips.
   const std::size_t candidates = std::max(
-      kLeastCandidates, sample.candidates().per_strip / (division.parts() * division.parts()));
+      kLeastCandidates, static_cast<std::size_t>(share * static_cast<double>(all.per_strip)) /
+                            (division.parts() * division.parts()));
   return sample.collect<PairObservation>([&](std::size_t i, AreaObservations& found) {
     if (block.isControl(i)) return;
-    AreaMatcher matcher =
-        sample.area(i).divided(division, candidates, settings.resolution, block.trajectory());
+    AreaMatcher matcher = sample.area(i).divided(division, share, candidates, settings.resolution,
+                                                 block.trajectory());
     matcher.correct(of_parts, corrections.sources, block.trajectory());
     found = matcher.match(pairs, settings.max_normal_distance, block.trajectory(), settings.noise);
     removeCorrections(of_parts, corrections.sources, found);

@@ -30,10 +30,13 @@ std::map<std::pair<std::int64_t, std::int64_t>, Members> cellsOf(const Points& p
   std::map<std::pair<std::int64_t, std::int64_t>, Members> cells;
   Eigen::Array2d corner = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
   for (const Eigen::Vector3d& point : points) corner = corner.min(point.head<2>().array());
+  std::pair<std::int64_t, std::int64_t> last;
+  Members* members = nullptr;  // of the last cell, in which the next point usually is as well
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Array2d at = ((points[i].head<2>().array() - corner) / cell).floor();
-    cells[{static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y())}].push_back(
-        static_cast<std::int32_t>(i));
+    const std::pair key(static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y()));
+    if (members == nullptr || key != last) members = &cells[last = key];
+    members->push_back(static_cast<std::int32_t>(i));
   }
   return cells;
 }
@@ -43,23 +46,29 @@ Members onPlane(const Points& points, const Members& members, double roughness) 
   if (members.size() < kFewest) return {};
   const auto count = static_cast<Eigen::Index>(members.size());
   const Eigen::Vector3d& origin = points[static_cast<std::size_t>(members.front())];
-  Eigen::MatrixX3d rows(count, 3);
-  Eigen::VectorXd heights(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Vector3d at =
-        points[static_cast<std::size_t>(members[static_cast<std::size_t>(i)])] - origin;
-    rows.row(i) << 1.0, at.x(), at.y();
-    heights[i] = at.z();
-  }
-  Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+  Points local;
+  for (const std::int32_t i : members)
+    local.push_back(points[static_cast<std::size_t>(i)] - origin);
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();  // z = plane . (1, x, y)
   const auto solve = [&](const Eigen::VectorXd& weights, Eigen::VectorXd& residuals) {
-    const Eigen::Matrix3d normal = rows.transpose() * weights.asDiagonal() * rows;
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::Vector3d& at = local[static_cast<std::size_t>(i)];
+      const Eigen::Vector3d row(1.0, at.x(), at.y()), weighted = weights[i] * row;
+      normal.noalias() += weighted * row.transpose();
+      right += weighted * at.z();
+    }
     const Eigen::LDLT<Eigen::Matrix3d> factor(normal);
     if (factor.info() != Eigen::Success || !factor.isPositive()) return std::optional<double>();
-    const Eigen::Vector3d solution = factor.solve(rows.transpose() * weights.cwiseProduct(heights));
+    const Eigen::Vector3d solution = factor.solve(right);
     const Eigen::Vector3d change = solution - plane;
     plane = solution;
-    residuals = heights - rows * plane;
+    residuals.resize(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::Vector3d& at = local[static_cast<std::size_t>(i)];
+      residuals[i] = at.z() - plane[0] - plane[1] * at.x() - plane[2] * at.y();
+    }
     return std::optional<double>(change.dot(normal * change));
   };
   constexpr double kLeastScale = 0.01;  // of the roughness: points without noise
