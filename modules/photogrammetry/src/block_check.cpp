@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 constexpr double kFarOff = 30.0 * kRadiansPerDegree;
 
 /// Places on lines of an image.
-struct Tally {
+struct ImageCounts {
   std::size_t places = 0, far = 0;
   double angle = 0.0;  ///< radians, of the first that is far
   std::string line;
@@ -40,41 +40,41 @@ double angleBetween(const ImageMeasurement& place, const ImageOrientation& image
   return std::acos(std::clamp(ray.dot(to), -1.0, 1.0));
 }
 
-std::unordered_map<std::string, Tally> statisticsOf(const ImageBlock& block) {
+std::unordered_map<std::string, ImageCounts> countsOf(const ImageBlock& block) {
   std::unordered_map<std::string, const ImageOrientation*> images;
   std::unordered_map<std::string, const ObjectLine*> lines;
   for (const ImageOrientation& image : block.images) images[image.id] = &image;
   for (const ObjectLine& line : block.lines) lines[line.id] = &line;
-  std::unordered_map<std::string, Tally> counters;
+  std::unordered_map<std::string, ImageCounts> by_image;
   for (const ImageMeasurement& m : block.measurements) {
     if (m.kind != ImageMeasurement::Kind::line) continue;
     const auto image = images.find(m.image);
     const auto line = lines.find(m.feature);
     if (image == images.end() || line == lines.end()) continue;
-    Tally& counters = counters[m.image];
-    ++counters.places;
+    ImageCounts& counts = by_image[m.image];
+    ++counts.places;
     const double angle = angleBetween(m, *image->second, *line->second, block.camera);
     if (angle <= kFarOff) continue;
-    if (counters.far++ > 0) continue;
-    counters.angle = angle;
-    counters.line = m.feature;
+    if (counts.far++ > 0) continue;
+    counts.angle = angle;
+    counts.line = m.feature;
   }
-  return counters;
+  return by_image;
 }
 
 }  // namespace
 
 void checkDirections(const ImageBlock& block) {
-  const auto counters = statisticsOf(block);
+  const auto by_image = countsOf(block);
   std::size_t wrong = 0;
   const ImageOrientation* first = nullptr;
   for (const ImageOrientation& image : block.images) {
-    const auto counters = counters.find(image.id);
-    if (counters == counters.end() || 2 * counters->second.far <= counters->second.places) continue;
+    const auto counts = by_image.find(image.id);
+    if (counts == by_image.end() || 2 * counts->second.far <= counts->second.places) continue;
     if (wrong++ == 0) first = &image;
   }
   if (wrong == 0) return;
-  const Tally& counters = counters.at(first->id);
+  const ImageCounts& counts = by_image.at(first->id);
   char text[360];
   std::snprintf(
       text, sizeof text,
@@ -82,8 +82,8 @@ void checkDirections(const ImageBlock& block) {
       "%s, line %s is %.0f degrees from where it was measured): position or angles "
       "(omega, phi, kappa in degrees) of the images, or the lines, are in another system "
       "or unit",
-      wrong, block.images.size(), first->id.c_str(), counters.line.c_str(),
-      counters.angle / kRadiansPerDegree);
+      wrong, block.images.size(), first->id.c_str(), counts.line.c_str(),
+      counts.angle / kRadiansPerDegree);
   throw InputError(text);
 }
 
