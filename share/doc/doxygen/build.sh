@@ -42,7 +42,8 @@ includes=(modules/*/include)
   printf '\nSTRIP_FROM_INC_PATH ='
   printf ' "%s"' "${includes[@]/#/$sources/}"
   printf '\nWARN_LOGFILE = "%s"\n' "$output/warnings.txt"
-  [[ -z $dot ]] || printf 'HAVE_DOT = YES\nDOT_PATH = "%s"\n' "$dot"
+  # Doxygen looks for dot unless this says otherwise.
+  if [[ -n $dot ]]; then printf 'HAVE_DOT = YES\nDOT_PATH = "%s"\n' "$dot"; else echo 'HAVE_DOT = NO'; fi
 } >"$output/Doxyfile"
 "$doxygen" "$output/Doxyfile"
 if [[ -s $output/warnings.txt ]]; then

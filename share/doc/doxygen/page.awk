@@ -64,6 +64,37 @@ function prose(text) {
   gsub(/"/, "\\&quot;", text)
   return linked(text)
 }
+# Prints a line of text. Codes are set apart before links are looked for, because a link may have code
+# as its text.
+function emit(line, code, halves, n, i) {
+  n = 0
+  while (match(line, /`[^`]*`/)) {
+    code[++n] = substr(line, RSTART, RLENGTH)
+    line = substr(line, 1, RSTART - 1) "\001" n "\002" substr(line, RSTART + RLENGTH)
+  }
+  line = prose(line)
+  for (i = 1; i <= n; ++i) {
+    split(line, halves, "\001" i "\002")
+    line = halves[1] code[i] halves[2]
+  }
+  print line
+}
+# Whether a link begins in a line and ends in the next one. Doxygen loses the structure of a page with
+# such links.
+function is_open(line) {
+  gsub(/`[^`]*`/, "", line)
+  return line ~ /\[[^]]*$/
+}
+held != "" {
+  if (/[^ ]/ && !/^ *(```|~~~|#|[-*+] )/) {
+    sub(/^ +/, "")
+    $0 = held " " $0
+    held = ""
+  } else {
+    emit(held)
+    held = ""
+  }
+}
 match($0, /^ *(```+|~~~+)/) {
   mark = substr($0, RSTART, RLENGTH)
   sub(/^ */, "", mark)
@@ -91,18 +122,7 @@ fence != "" { print; next }
   next
 }
 {
-  # Codes are set apart before links are looked for, because a link may have code as its text.
-  line = $0
-  out = ""
-  n = 0
-  while (match(line, /`[^`]*`/)) {
-    code[++n] = substr(line, RSTART, RLENGTH)
-    line = substr(line, 1, RSTART - 1) "\001" n "\002" substr(line, RSTART + RLENGTH)
-  }
-  line = prose(line)
-  for (i = 1; i <= n; ++i) {
-    split(line, halves, "\001" i "\002")
-    line = halves[1] code[i] halves[2]
-  }
-  print line
+  if (is_open($0)) held = $0
+  else emit($0)
 }
+END { if (held != "") emit(held) }
