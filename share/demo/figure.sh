@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# figure.sh OUT_DIR PROFILE PNG: the README's picture from the demo's OUT_DIR. PROFILE is the program
+# figure.sh OUT_DIR PROFILE PNG: the picture misfit.png from the demo's OUT_DIR. PROFILE is the program
 # of share/examples/pipeline; needs gnuplot. Height of strip 2 above strip 1 along a line across both
 # swaths: means over cells of 4 m x 8 m on open ground (cells with a range of heights over 0.6 m,
 # roofs, trees and steep slopes, are left out).

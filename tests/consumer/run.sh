@@ -21,18 +21,23 @@ if grep -rlF -e "$root/" -e "$build/" -e "$scratch/first" "$prefix" --include='*
   exit 1
 fi
 
-# The README's lines of C++ are those that are compiled here.
-diff <(sed -n '/^```cpp$/,/^```$/p' "$root/README.md" | grep -v '^```') <(sed '1,4d' "$here/project/readme.cpp") ||
-  { echo "README.md and tests/consumer/project/readme.cpp differ"; exit 1; }
-diff <(sed -n '/^```c++$/,/^```$/p' "$root/README.md" | grep -v '^```') \
-  <(sed -n '/^  \/\/ README$/,/^  \/\/ end$/p' "$here/project/clouds.cpp" | sed '1d;$d;s/^  //') ||
-  { echo "README.md and tests/consumer/project/clouds.cpp differ"; exit 1; }
-for language in cpp:agreement.cpp:4 cmake:CMakeLists.txt:1; do
-  IFS=: read -r kind file comment <<<"$language"
-  diff <(sed -n "/^\`\`\`$kind\$/,/^\`\`\`\$/p" "$root/share/doc/programs.md" | grep -v '^```') \
-    <(sed "1,${comment}d" "$here/agreement/$file") ||
-    { echo "share/doc/programs.md and tests/consumer/agreement/$file differ"; exit 1; }
-done
+# The C++ and CMake lines of the pages are those that are compiled here.
+sample() {  # PAGE KIND N: the lines of the Nth block of this kind
+  awk -v kind="\`\`\`$2" -v wanted="$3" '$0 == kind { on = ++count == wanted; next } $0 == "```" { on = 0 } on' "$root/$1"
+}
+same() {  # PAGE KIND N FILE: the block has the lines of the standard input, which are those of FILE
+  diff <(sample "$1" "$2" "$3") - || { echo "$1 and tests/consumer/$4 differ"; exit 1; }
+}
+body() {  # FILE: what is inside of main()
+  sed -n '/^int main() {$/,/^}$/p' "$1" | sed '1d;$d;s/^  //'
+}
+program=share/doc/programs.md
+body "$here/project/readme.cpp" | same README.md cpp 1 project/readme.cpp
+sed '1,4d' "$here/agreement/agreement.cpp" | same $program cpp 1 agreement/agreement.cpp
+sed '1,4d' "$here/project/readme.cpp" | same $program cpp 2 project/readme.cpp
+sed -n '/^  \/\/ programs.md$/,/^  \/\/ end$/p' "$here/project/clouds.cpp" | sed '1d;$d;s/^  //' |
+  same $program cpp 3 project/clouds.cpp
+sed '1d' "$here/agreement/CMakeLists.txt" | same $program cmake 1 agreement/CMakeLists.txt
 
 flags=()
 [[ -z ${SANITIZE:-} ]] || flags=(-DCMAKE_CXX_FLAGS="-fsanitize=$SANITIZE")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 //
-// clouds STRIP…: the lines of the README on clouds in memory, for the strips, trajectory.csv and
+// clouds STRIP…: the lines of programs.md on clouds in memory, for the strips, trajectory.csv and
 // control.csv of a block; run.sh compares the lines and the result. Writes the clouds as PCD files.
 #include <cstdlib>
 #include <exception>
@@ -20,7 +20,7 @@ int main(int argc, char** argv) try {
   const auto strips = pcl_als::loadStrips({argv + 1, argv + argc});
   const auto trajectory = pcl_als::loadTrajectory("trajectory.csv").trajectory;
   pcl::PointCloud<pcl_als::PointLidar> common;
-  // README
+  // programs.md
   pcl_als::SystemCalibration<pcl_als::PointLidar> calibration;
   pcl_als::OverlapSelection<pcl_als::PointLidar> overlap;  // a pcl::FilterIndices
   overlap.setInputCloud(strips[0].cloud);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 //
-// The lines of the README between its marks; run.sh compares them.
+// The lines of the README and of programs.md; run.sh compares them.
 #include <pcl_als/filters/system_bias_correction.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/strip_loader.h>
