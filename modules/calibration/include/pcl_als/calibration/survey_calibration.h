@@ -51,7 +51,7 @@ struct CalibrationOptions {
   /// strips replace those of settings.shared_errors, except those that are kept. InputError where
   /// they cover none of the strips.
   std::vector<TrajectoryAccuracy> accuracy;
-  /// The trajectory is one of reconstructTrajectory(): lever arm and range bias are not determined.
+  /// The trajectory is one of reconstructTrajectory(): its heights add to the standard deviations.
   bool reconstructed = false;
   /// Of a reconstructed trajectory: standard deviations of its own, which are not those of the
   /// errors that the points have.
