@@ -20,8 +20,9 @@ endif()
 # HTML where it was made before the installation.
 set(PCL_ALS_MANUAL_DIR ${CMAKE_INSTALL_DATAROOTDIR}/doc/pcl_als)
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-  modules/*.md share/*.md share/*.png tests/*.md)
-foreach(page IN LISTS pages ITEMS README.md CHANGELOG.md LICENSE)
+  modules/*.md share/*.md share/*.png share/*.svg tests/*.md)
+foreach(page IN LISTS pages ITEMS README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md HOWTORELEASE.md
+    LICENSE SECURITY.md)
   get_filename_component(folder ${page} DIRECTORY)
   install(FILES ${page} DESTINATION ${PCL_ALS_MANUAL_DIR}/${folder} COMPONENT documentation)
 endforeach()

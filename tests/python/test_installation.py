@@ -68,7 +68,8 @@ class InstallTest(FolderTest):
             blocks = re.findall(r"^```sh\n(.*?)^```$", page.read(), re.MULTILINE | re.DOTALL)
         blocks = [block for block in blocks if "pip install" in block]
         self.assertEqual(len(blocks), 2)
-        for name in ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md"):
+        for name in ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md",
+                     "HOWTORELEASE.md", "SECURITY.md"):
             shutil.copy(os.path.join(ROOT, name), name)
         for name in ("apps", "modules", "share"):
             shutil.copytree(os.path.join(ROOT, name), name)

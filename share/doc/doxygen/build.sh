@@ -12,8 +12,8 @@ rm -rf -- "$output" && mkdir -p -- "$output/html"
 cd -- "$sources"
 
 # Pages: all Markdown of the project but what developers alone need.
-find README.md CHANGELOG.md modules share/GLOSSARY.md share/doc share/design share/dev tests \
-  -name '*.md' | sort >"$output/pages.txt"
+find README.md CHANGELOG.md CONTRIBUTING.md HOWTORELEASE.md SECURITY.md modules share/GLOSSARY.md \
+  share/benchmark share/design share/dev share/doc share/examples share/packaging tests -name '*.md' | sort >"$output/pages.txt"
 while IFS= read -r page; do
   mkdir -p -- "$output/pages/$(dirname -- "$page")"
   awk -v page="$page" -v pages="$output/pages.txt" -f "$here/anchor.awk" -f "$here/page.awk" \
@@ -33,7 +33,8 @@ includes=(modules/*/include)
   printf 'USE_MDFILE_AS_MAINPAGE = "%s"\n' "$output/pages/share/doc/README.md"
   # The order of the pages in the navigation.
   printf 'INPUT ='
-  for page in share/doc share/GLOSSARY.md README.md modules tests share/design share/dev CHANGELOG.md; do
+  for page in share/doc share/GLOSSARY.md README.md share/examples modules tests share/benchmark \
+    share/design share/dev share/packaging CONTRIBUTING.md HOWTORELEASE.md SECURITY.md CHANGELOG.md; do
     printf ' "%s"' "$output/pages/$page"
   done
   printf ' "%s"' "${includes[@]/#/$sources/}"
