@@ -71,12 +71,23 @@ std::vector<int> AreaMatcher::StripPart::values(PointField field,
   return recorded ? std::vector<int>(times.size(), 0) : scanDirections(times, biased, trajectory);
 }
 
+AreaMatcher::StripPart AreaMatcher::StripPart::within(const SurveyArea& area) const {
+  StripPart part;
+  part.strip = strip;
+  part.rounding = rounding;
+  for (std::size_t i = 0; i < biased.size(); ++i)
+    if (area.covers(biased[i])) part.add(*this, i);
+  return part;
+}
+
 std::map<int, std::map<int, std::size_t>> AreaMatcher::valuesOf(
-    PointField field, const Trajectory& trajectory) const {
+    PointField field, double share, const Trajectory& trajectory) const {
+  const SurveyArea middle = middleOf(area_, share);
   std::map<int, std::map<int, std::size_t>> counts;
   for (const StripPart& part : surfaces_) {
     if (part.held()) continue;
-    for (const int value : part.values(field, trajectory)) ++counts[part.strip][value];
+    for (const int value : part.within(middle).values(field, trajectory))
+      ++counts[part.strip][value];
   }
   return counts;
 }
@@ -89,11 +100,11 @@ AreaMatcher AreaMatcher::divided(const FieldDivision& division, double share,
   matcher.criterion_ = criterion_;
   matcher.source_scale_ = source_scale_;
   const std::vector<int>& values = division.values;
-  for (const StripPart& part : surfaces_) {
-    if (part.held()) continue;
+  for (const StripPart& whole : surfaces_) {
+    if (whole.held()) continue;
+    const StripPart part = whole.within(middle);
     const std::vector<int> of_points = part.values(division.field, trajectory);
     for (std::size_t i = 0; i < part.biased.size(); ++i) {
-      if (!middle.covers(part.biased[i])) continue;
       const auto found = std::lower_bound(values.begin(), values.end(), of_points[i]);
       if (found == values.end() || *found != of_points[i]) continue;
       const auto k = static_cast<std::size_t>(found - values.begin());

@@ -118,14 +118,14 @@ class AreaMatcher {
   /// From now on pairs have the effects of all error sources.
   void considerSources(const ErrorSourceScale& scale) { source_scale_ = scale; }
 
-  /// The numbers of points of strips that are not held fixed, by strip and value of a field. Scan
-  /// directions (1 to the left, -1 to the right) that are not recorded are found from the angles of
-  /// successive pulses; recorded ones are not counted: they have an error source of their own.
-  std::map<int, std::map<int, std::size_t>> valuesOf(PointField field,
+  /// The numbers of points of strips that are not held fixed, by strip and value of a field, in a
+  /// square in the middle of the area with this share of it and the same margin. Scan directions (1
+  /// to the left, -1 to the right) that are not recorded are found from the angles of successive
+  /// pulses; recorded ones are not counted: they have an error source of their own.
+  std::map<int, std::map<int, std::size_t>> valuesOf(PointField field, double share,
                                                      const Trajectory& trajectory) const;
   /// The points of strips that are not held fixed, divided by the value of a field, with surfaces
-  /// by the criterion of this matcher, see prepare().
-  /// \param share of the area, a square in its middle
+  /// by the criterion of this matcher, see prepare(). \a share: as of valuesOf().
   AreaMatcher divided(const FieldDivision& division, double share, std::size_t candidates,
                       double resolution, const Trajectory& trajectory) const;
 
@@ -213,6 +213,8 @@ class AreaMatcher {
     /// By point; 0 for scan directions that are recorded or unknown.
     std::vector<int> values(PointField field, const Trajectory& trajectory) const;
     void add(const StripPart& other, std::size_t point);  ///< a point of another part
+    /// The points that an area with its margin covers.
+    StripPart within(const SurveyArea& area) const;
   };
   class PointGeometry;
 

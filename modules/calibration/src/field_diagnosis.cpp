@@ -39,14 +39,20 @@ void removeCorrections(const std::vector<AreaMatcher::StripCorrection>& correcti
         o.effectAtPoint(of(o.a)) - o.effectAtPatch(of(o.b)) + o.effectOfSources(sources);
 }
 
-FieldDivision divisionBy(PointField field, const AreaSample& sample) {
+/// The share of each area that determines differences well enough.
+double shareFor(const AreaSample& sample) {
+  constexpr double kPairsForDifferences = 50e3;  // more determine no difference that matters
+  return std::min(1.0, kPairsForDifferences / static_cast<double>(sample.candidates().pairs));
+}
+
+FieldDivision divisionBy(PointField field, double share, const AreaSample& sample) {
   const SurveyBlock& block = sample.block();
-  const auto counts =
-      sample.collect<ValueCount>([&](std::size_t i, std::vector<ValueCount>& found) {
-        if (block.isControl(i)) return;
-        for (const auto& [strip, values] : sample.area(i).valuesOf(field, block.trajectory()))
-          for (const auto& [value, points] : values) found.push_back({strip, value, points});
-      });
+  const auto counts = sample.collect<ValueCount>([&](std::size_t i,
+                                                     std::vector<ValueCount>& found) {
+    if (block.isControl(i)) return;
+    for (const auto& [strip, values] : sample.area(i).valuesOf(field, share, block.trajectory()))
+      for (const auto& [value, points] : values) found.push_back({strip, value, points});
+  });
   ValueCounts sums;
   for (const std::vector<ValueCount>& area : counts)
     for (const ValueCount& count : area) sums[count.strip][count.value] += count.points;
@@ -68,22 +74,20 @@ std::vector<StripPair> pairsOfParts(const FieldDivision& division, const SurveyB
 
 /// The observations of the parts of divided strips, by area; misclosures are those of corrected
 /// points.
-std::vector<AreaObservations> observationsOf(const FieldDivision& division,
+std::vector<AreaObservations> observationsOf(const FieldDivision& division, double share,
                                              const AreaSample& sample,
                                              const Corrections& corrections) {
-  constexpr std::size_t kLeastCandidates = 20;   // of a part, in an area
-  constexpr double kPairsForDifferences = 50e3;  // more determine no difference that matters
+  constexpr std::size_t kLeastCandidates = 20;  // of a part, in an area
   const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   const StripCorrections of_strips(block, corrections);
   const auto of_parts = division.repeated(of_strips.strips());
   const std::vector<StripPair> pairs = pairsOfParts(division, block);
-  const AreaSample::Candidates all = sample.candidates();
-  const double share = std::min(1.0, kPairsForDifferences / static_cast<double>(all.pairs));
   // Every part forms pairs with every part of another strip: about as many in all as whole strips.
   const std::size_t candidates = std::max(
-      kLeastCandidates, static_cast<std::size_t>(share * static_cast<double>(all.per_strip)) /
-                            (division.parts() * division.parts()));
+      kLeastCandidates,
+      static_cast<std::size_t>(share * static_cast<double>(sample.candidates().per_strip)) /
+          (division.parts() * division.parts()));
   return sample.collect<PairObservation>([&](std::size_t i, AreaObservations& found) {
     if (block.isControl(i)) return;
     AreaMatcher matcher = sample.area(i).divided(division, share, candidates, settings.resolution,
@@ -101,19 +105,21 @@ void diagnoseFields(const AreaSample& sample, const BlockEstimate& estimate,
   const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   const BlockSolution& solution = estimate.solution;
+  const double share = shareFor(sample);
   for (const PointField field :
        {PointField::scanner_channel, PointField::user_data, PointField::scan_direction}) {
     // The beam of other scanners does not go back and forth.
     if (field == PointField::scan_direction && !block.scanner.isLinear()) continue;
-    const FieldDivision division = divisionBy(field, sample);
+    const FieldDivision division = divisionBy(field, share, sample);
     if (division.values.empty()) continue;
     AdjustedBlock adjusted{block.flownTimes(), errorModelOf(block, solution),
                            solution.adjustment.levels(), solution.choice.estimate,
                            settings.threads};
     adjusted.model.biases.mean -= solution.solution().biases;  // a prior of their changes
     const std::size_t before = result.diagnosis.size();
-    for (ErrorFinding& finding : fieldDifferences(
-             division, adjusted, observationsOf(division, sample, estimate.corrections()), edge))
+    for (ErrorFinding& finding :
+         fieldDifferences(division, adjusted,
+                          observationsOf(division, share, sample, estimate.corrections()), edge))
       result.diagnosis.push_back(std::move(finding));
     judgeDifferences(before, settings.shared_errors.position, remedyOf(field), result);
   }
