@@ -33,7 +33,8 @@ CommandLine commandLine() {
   line.addInputFile("calibration", "calibration.json or history.json with the biases");
   line.addText("biases",
                "NAME=VALUE,... instead of a calibration: assumed - true, in m, arcsec or 1; "
-               "names as in calibration.json");
+               "names as in calibration.json")
+      .in(app::Group::inputs);
   line.exclude({"calibration", "biases"}, true);
   line.addOutputFolder("corrected", "folder for the corrected copies of any number of files",
                        app::copiesOfInputs());
@@ -51,13 +52,15 @@ CommandLine commandLine() {
   line.makeDependent("check", "calibration");
   line.exclude({"check", "invert"});
   line.addFlag(
-      "uncertainty",
-      "add extra bytes sigma_horizontal (in the plane, compare RMSE_H) and sigma_vertical: "
-      "standard deviation of every point, m (LAS, LAZ)");
+          "uncertainty",
+          "add extra bytes sigma_horizontal (in the plane, compare RMSE_H) and sigma_vertical: "
+          "standard deviation of every point, m (LAS, LAZ)")
+      .in(app::Group::output);
   line.addOutputFile("uncertainty_raster",
                      "GeoTIFF of these standard deviations, root mean squares in cells",
                      {".tif", ".tiff"});
-  line.addNumber("uncertainty_cell", "size of its cells", 2.0, {0.01, 1e4, "m"});
+  line.addNumber("uncertainty_cell", "size of its cells", 2.0, {0.01, 1e4, "m"})
+      .in(app::Group::output);
   line.exclude({"corrected", "uncertainty_raster"});
   line.makeDependent("uncertainty_cell", "uncertainty_raster");
   app::addAccuracyOption(line,
@@ -68,9 +71,10 @@ CommandLine commandLine() {
       "the calibration's verdict is not \"usable\", a file was corrected with it before, or inputs "
       "do not belong together");
   line.addFlag(
-      "no_record",
-      "do not record the correction in the output (default: LAS in a VLR, PCD in a comment "
-      "line, so that it is not made twice)");
+          "no_record",
+          "do not record the correction in the output (default: LAS in a VLR, PCD in a comment "
+          "line, so that it is not made twice)")
+      .in(app::Group::output);
   line.addFlag("keep_uncovered",
                "leave any number of points without a trajectory unchanged (default: up to 1 % of a "
                "file, which are counted; a file with more is refused)");

@@ -30,9 +30,10 @@ CommandLine commandLine() {
   line.addOutputFile("output", "result", {".json"}).needed();
   line.addOutputFile("transformed", "the source moved onto the target, of the kind of SOURCE",
                      {".las", ".laz", ".pcd"});
-  line.addText("pair", "A:B: strip A of the files onto strip B of the files");
+  line.addText("pair", "A:B: strip A of the files onto strip B of the files")
+      .in(app::Group::strips);
   app::addStripOptions(line);
-  line.addFlag("scale", "also estimate a scale");
+  line.addFlag("scale", "also estimate a scale").in(app::Group::estimation);
   line.addNumber("search_distance", "largest distance of the surfaces at the start",
                  defaults.search_distance, {0.1, 200.0, "m"});
   line.addNumber("determined_std",

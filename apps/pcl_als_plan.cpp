@@ -22,13 +22,9 @@ using app::Step;
 
 constexpr double kComplete = 0.995;  // of the lines: less is worth a remark
 
-CommandLine commandLine() {
+void addPlannedFlight(CommandLine& line) {
+  const app::OptionGroup group(line, app::Group::inputs);
   const SurfaceModel surface;
-  CommandLine line("pcl_als_plan",
-                   "predicts the standard deviations of the parameters from a planned calibration "
-                   "flight, and which line to add.",
-                   "-lines plan.csv [options]",
-                   "pcl_als_plan -lines plan.csv -control 5 -density 2 -output plan.json");
   line.addInputFile("lines",
                     "lines: CSV id,x1,y1,x2,y2,height[,speed][,density], metres in any local "
                     "frame, height above mean ground")
@@ -53,6 +49,15 @@ CommandLine commandLine() {
   line.exclude({"terrain", "ground_slope"});
   line.addWhole("control", "number of vertical control points, distributed over the block", 0,
                 {0, 1000, {}});
+}
+
+CommandLine commandLine() {
+  CommandLine line("pcl_als_plan",
+                   "predicts the standard deviations of the parameters from a planned calibration "
+                   "flight, and which line to add.",
+                   "-lines plan.csv [options]",
+                   "pcl_als_plan -lines plan.csv -control 5 -density 2 -output plan.json");
+  addPlannedFlight(line);
   app::addEstimateOption(line, "the flight determines");
   line.addOutputFile("output", "plan.json to write", {".json"});
   app::addErrorOptions(line);

@@ -19,7 +19,8 @@ using simulation::SimulationOptions;
 void declareScene(CommandLine& line) {
   line.addFlag("images",
                "also images of the block with a frame camera, in the folder images: camera.json, "
-               "images.csv, measurements.csv, checkpoints.csv and the truth");
+               "images.csv, measurements.csv, checkpoints.csv and the truth")
+      .in(Group::output);
   line.addWhole("targets", "number of white level circular targets in control.csv", 0,
                 {0, 1000, {}});
   line.addNumber("target_diameter", "diameter of the targets", 2.0, {0.1, 20.0, "m"});
@@ -66,16 +67,18 @@ void addPointOptions(CommandLine& line) {
                  {0.0, 4.0});
   line.addNumber("incidence_exponent", "power of cos(incidence); 1: Lambertian", 1.0, {0.0, 4.0});
   line.addNumber("visibility", "visibility", 48.3, {0.1, 500.0, "km"});
-  line.addChoice("format", "format of the strips", {"las", "laz"}, "las");
+  line.addChoice("format", "format of the strips", {"las", "laz"}, "las").in(Group::output);
 }
 
 /// What is known of each point of a simulation.
 void declareTruth(CommandLine& line) {
   line.addFlag("truth_points",
-               "extra bytes bias_x, bias_y, bias_z: effect of biases and errors on each point, m");
+               "extra bytes bias_x, bias_y, bias_z: effect of biases and errors on each point, m")
+      .in(Group::output);
   line.addFlag("true_surface",
                "extra bytes error_x, error_y, error_z: each point minus that of the true surface, "
-               "m: biases, errors of the trajectory and noise");
+               "m: biases, errors of the trajectory and noise")
+      .in(Group::output);
 }
 
 CommandLine declare() {
@@ -124,12 +127,14 @@ CommandLine declare() {
   line.addText("crs",
                "CRS written to the strips, whose coordinates are in its unit; trajectory, "
                "control and sites are in metres",
-               "EPSG:32611");
+               "EPSG:32611")
+      .in(Group::output);
   declareScene(line);
   line.addChoice("time",
                  "times of the points: week (seconds) or adjusted (standard GPS time); the "
                  "trajectory has seconds of the week",
-                 {"week", "adjusted"}, "week");
+                 {"week", "adjusted"}, "week")
+      .in(Group::output);
   declareTruth(line);
   addPointOptions(line);
   return line;

@@ -48,7 +48,8 @@ CommandLine commandLine() {
                        "of points: folder for report.html (pictures inside), report.md and tables "
                        "as CSV",
                        {"paths.csv", "rays.csv", "angles.csv"});
-  line.addFlag("positions", "of points: positions only, without recovering the attitude");
+  line.addFlag("positions", "of points: positions only, without recovering the attitude")
+      .in(app::Group::estimation);
   return line;
 }
 

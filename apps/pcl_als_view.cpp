@@ -27,7 +27,7 @@ CommandLine commandLine() {
       "pcl_als_view strip*.las -output strips.png -color strip -shade edl");
   line.setArguments({{"", 1, app::Arguments::kAnyNumber}});
   line.addOutputFile("output", "picture to write", app::pictureEndings());
-  line.addFlag("window", "show the points in a window; needs a display");
+  line.addFlag("window", "show the points in a window; needs a display").in(app::Group::output);
   line.exclude({"output", "window"}, true);
   line.addText("color",
                "elevation, intensity, strip, class, return, scan_angle, time, difference, "
@@ -53,7 +53,7 @@ CommandLine commandLine() {
   line.addNumber("point_size", "size of the points; 0: as large as the gaps between points", 0.0,
                  {0.0, 64.0, "pixels"});
   app::addSizeOption(line);
-  line.addText("title", "text above (default: names of the files)");
+  line.addText("title", "text above (default: names of the files)").in(app::Group::output);
   line.addFlag("bare", "points only, without title, legend and scale");
   return line;
 }

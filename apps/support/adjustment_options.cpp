@@ -12,6 +12,7 @@
 namespace pcl_als::app {
 
 void addErrorOptions(CommandLine& line) {
+  const OptionGroup group(line, Group::priors);
   const CalibrationSettings defaults;
   line.addNumber("range_noise", "standard deviation of ranges", defaults.noise.range,
                  {1e-4, 1.0, "m"});
@@ -56,7 +57,7 @@ SharedErrorModel sharedErrorsOf(const CommandLine& line) {
 void addEstimateOption(CommandLine& line, const std::string& subject) {
   const std::string help =
       "parameters to estimate, e.g. boresight_roll,range_bias; auto: all that " + subject;
-  line.addText("estimate", help, "auto");
+  line.addText("estimate", help, "auto").in(Group::estimation);
 }
 
 std::vector<SystemParameter> parametersToEstimate(const CommandLine& line) {
@@ -65,6 +66,7 @@ std::vector<SystemParameter> parametersToEstimate(const CommandLine& line) {
 }
 
 void addSystemOptions(CommandLine& line) {
+  const OptionGroup group(line, Group::estimation);
   line.addTexts("system",
                 "NAME=STRIPS[:CHANNEL] ...: systems with biases of their own, e.g. north=1-4 "
                 "south=5-9, or a=1-9:0 b=1-9:1 with -channels; strips that none names are of the "

@@ -16,6 +16,7 @@ namespace pcl_als::app {
 namespace {
 
 void addOutputs(CommandLine& line) {
+  const OptionGroup group(line, Group::output);
   const std::vector<std::string> raster{".tif", ".tiff"};
   line.addOutputFile("output", "the map of classes; -grids may be written without it", raster);
   line.addOutputFile("grids", "also keep the rasters of the strips, in nine bands", raster);
@@ -58,17 +59,20 @@ CommandLine declareClassify() {
   addUnitsOption(line, "sites", "-training and -checkpoints");
   addStripOptions(line);
   addOutputs(line);
-  line.addNumber("cell", "side of the cells", 1.0, {0.01, 1000.0, "m"});
-  line.addText("extent", "WEST,SOUTH,EAST,NORTH of the rasters, m (default: all points)");
+  line.addNumber("cell", "side of the cells", 1.0, {0.01, 1000.0, "m"}).in(Group::output);
+  line.addText("extent", "WEST,SOUTH,EAST,NORTH of the rasters, m (default: all points)")
+      .in(Group::output);
   line.addText("crs",
                "CRS of the rasters, which are georeferenced in its unit (default: that of the "
-               "point files); heights are in metres");
+               "point files); heights are in metres")
+      .in(Group::output);
   line.addText("bands",
                "bands by which classes are separated, from surface, terrain, height, "
                "intensity, slope, roughness, multiple_returns, height_range, density",
                "height,intensity,roughness,multiple_returns");
   line.addText("priors",
-               "CLASS=P,…: probabilities of classes; the others share the rest (default: equal)");
+               "CLASS=P,…: probabilities of classes; the others share the rest (default: equal)")
+      .in(Group::priors);
   line.addNumber("reject",
                  "probability of the chi-squared distribution below which a cell has no class", 0.0,
                  {0.0, 0.5});

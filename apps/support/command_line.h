@@ -116,6 +116,7 @@ class CommandLine {
   std::vector<std::pair<std::string, std::string>> settings() const;
 
  private:
+  friend class OptionGroup;
   Option& add(const std::string& name, const std::string& help, Role role);
   const Option& declared(const std::string& name) const;
   void read(const std::vector<std::string>& words);
@@ -129,6 +130,7 @@ class CommandLine {
 
   std::string tool_, purpose_, synopsis_, example_;
   std::deque<Option> options_;
+  std::optional<Group> group_;  ///< of the options that are being declared
   std::vector<Arguments> forms_{{}};
   std::vector<std::pair<std::vector<std::string>, bool>> exclusive_;
   std::vector<std::pair<std::string, std::string>> dependent_;
@@ -136,6 +138,25 @@ class CommandLine {
   std::vector<std::string> arguments_, inputs_;
   std::string output_;
   FileProtection protection_;
+};
+
+/** \brief Options that are declared during its lifetime belong to one part of -h.
+ *
+ * Other options belong to a part by their role: files that are read to the inputs, files and
+ * folders that are written to the output, all others to further options.
+ */
+class OptionGroup {
+ public:
+  OptionGroup(CommandLine& line, Group group) : line_(line), before_(line.group_) {
+    line.group_ = group;
+  }
+  ~OptionGroup() { line_.group_ = before_; }
+  OptionGroup(const OptionGroup&) = delete;
+  OptionGroup& operator=(const OptionGroup&) = delete;
+
+ private:
+  CommandLine& line_;
+  std::optional<Group> before_;
 };
 
 using Step = ConsoleStep;

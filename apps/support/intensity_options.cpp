@@ -42,6 +42,7 @@ void addAirOptions(CommandLine& line) {
 }
 
 void addGainOptions(CommandLine& line) {
+  const OptionGroup group(line, Group::inputs);
   line.addText("gains", "STRIP=FACTOR,…: known gains of strips; intensities are divided by them");
   line.addText("pulse_rates",
                "STRIP=HZ,…: pulse rates of all strips; the pulse energy is inversely "
@@ -69,9 +70,11 @@ void addSurfaceOptions(CommandLine& line) {
 
 void addOverlapOptions(CommandLine& line) {
   line.addText(
-      "estimate",
-      "terms to estimate from overlaps: a list of range_exponent, incidence_exponent, extinction, "
-      "strip_gains, or all; terms that the overlaps do not determine keep their given value");
+          "estimate",
+          "terms to estimate from overlaps: a list of range_exponent, incidence_exponent, "
+          "extinction, "
+          "strip_gains, or all; terms that the overlaps do not determine keep their given value")
+      .in(Group::estimation);
   line.addNumber("cell", "cell size for the comparison of strips; 0: that of 6 points", 0.0,
                  {0.0, 100.0, "m"});
   line.addInputFile("radiometry", "JSON of an earlier run: its model, gains and constant are used");
@@ -88,9 +91,12 @@ void addOutputOptions(CommandLine& line) {
   line.addOutputFolder("corrected",
                        "folder for the corrected files; all files named are then inputs",
                        copiesOfInputs());
-  line.addNumber("scale", "factor on corrected intensities in the 16-bit field", 1.0, {1e-6, 1e6});
-  line.addFlag("no_original", "do not keep the original intensity as extra bytes");
-  line.addFlag("no_fields", "do not add range, incidence angle and reflectance as extra bytes");
+  line.addNumber("scale", "factor on corrected intensities in the 16-bit field", 1.0, {1e-6, 1e6})
+      .in(Group::output);
+  line.addFlag("no_original", "do not keep the original intensity as extra bytes")
+      .in(Group::output);
+  line.addFlag("no_fields", "do not add range, incidence angle and reflectance as extra bytes")
+      .in(Group::output);
   line.addFlag("keep_uncovered",
                "leave any number of points without a trajectory unchanged (default: up to 1 % of a "
                "file, which are counted; a file with more is refused)");

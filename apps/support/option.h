@@ -16,6 +16,9 @@ class CommandLine;
 /// What the value of an option is.
 enum class Role { flag, text, number, whole, choice, input, output, folder };
 
+/// The part of -h that lists an option, in the order of the parts.
+enum class Group { inputs, strips, estimation, priors, output, further };
+
 /// The numbers that an option takes, with their unit ("" for factors and the like).
 struct Range {
   double low, high;
@@ -40,6 +43,7 @@ FolderFiles copiesOfInputs();
 struct Option {
   std::string name, help;
   Role role = Role::text;
+  Group group = Group::further;  ///< by its role, where nothing else is said
   bool is_needed = false;
   bool is_setting = true;             ///< listed by CommandLine::settings()
   bool is_list = false;               ///< takes the values that follow it, and may be repeated
@@ -52,6 +56,11 @@ struct Option {
   /// Results do not depend on it: reports and records of the command leave it out.
   Option& noSetting() {
     is_setting = false;
+    return *this;
+  }
+  /// -h lists it in this part.
+  Option& in(Group part) {
+    group = part;
     return *this;
   }
   /// The command is refused without it.

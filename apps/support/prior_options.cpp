@@ -43,6 +43,7 @@ void setChanges(std::string_view text, SystemVector& change_std) {
 }
 
 void addPriorOptions(CommandLine& line) {
+  const OptionGroup group(line, Group::priors);
   line.addInputFile("prior",
                     "what is known of the biases: boresight_roll=0:5,… (value and standard "
                     "deviation, m, arcsec), or the calibration.json of an earlier flight with the "

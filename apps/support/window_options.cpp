@@ -41,6 +41,7 @@ std::vector<std::filesystem::path> pointFiles(const CommandLine& line, const std
 }
 
 void addWindowOptions(CommandLine& line) {
+  const OptionGroup group(line, Group::inputs);
   line.addText("bounds",
                "XMIN,YMIN,XMAX,YMAX, m: use the points in this rectangle only, with its edges; "
                "of COPC files only this part is read");

@@ -20,7 +20,7 @@ done
 
 # The text of every option speaks of options that the tool has, and is whole on the manual page.
 texts() {  # VERB: the name and the text of every option, as -h prints them
-  "$bin/pcl_als_$1" -h | awk '/^Options/ { on = 1; next } /^Example/ { on = 0 }
+  "$bin/pcl_als_$1" -h | awk '/^Options/ { on = 1; next } /^Example/ { on = 0 } /^[A-Z]/ { next }
     on && /^  --/ { if (name != "") print name "\t" text; name = $1; text = ""; sub(/^  --[^ ]+/, "")
                     if (!sub(/^.*  +/, "")) next }
     on && NF { sub(/^ +/, ""); text = text (text == "" ? "" : " ") $0 }
