@@ -21,8 +21,9 @@ void declareScene(CommandLine& line) {
                "also images of the block with a frame camera, in the folder images: camera.json, "
                "images.csv, measurements.csv, checkpoints.csv and the truth")
       .in(Group::output);
-  line.addWhole("targets", "number of white level circular targets in control.csv", 0,
-                {0, 1000, {}});
+  line.addWhole("target_count", "number of white level circular targets in control.csv", 0,
+                {0, 1000, {}})
+      .formerly("targets");
   line.addNumber("target_diameter", "diameter of the targets", 2.0, {0.1, 20.0, "m"});
   line.addNumber("relief", "factor on the heights of the terrain; 0: a plane", 1.0, {0.0, 1.5});
   line.addNumber("buildings", "factor on their number", 1.0, {0.0, 1.0});
@@ -127,8 +128,7 @@ CommandLine declare() {
   line.addText("crs",
                "CRS written to the strips, whose coordinates are in its unit; trajectory, "
                "control and sites are in metres",
-               "EPSG:32611")
-      .in(Group::output);
+               "EPSG:32611");
   declareScene(line);
   line.addChoice("time",
                  "times of the points: week (seconds) or adjusted (standard GPS time); the "
@@ -169,7 +169,7 @@ SimulationOptions optionsFrom(const CommandLine& line) {
   options.scene.relief *= line.number("relief");
   options.scene.buildings = line.number("buildings");
   options.scene.trees = line.number("trees");
-  options.targets = static_cast<int>(line.whole("targets"));
+  options.targets = static_cast<int>(line.whole("target_count"));
   options.target_diameter = line.number("target_diameter");
   setIntensity(line, options);
   options.check();

@@ -31,6 +31,14 @@ std::string nameIn(const std::string& word) {
   return name;
 }
 
+/// The value in today's unit of the option; \a former: the name by which it is given, if that is a
+/// former one.
+std::string inUnitOf(const FormerName* former, const std::string& value) {
+  const auto number = finiteNumber(value);
+  const bool is_same = former == nullptr || former->factor == 1.0 || !number;
+  return is_same ? value : shortText(*number * former->factor);
+}
+
 /// UsageError unless an option takes the value.
 void checkValue(const Option& option, const std::string& value) {
   const auto refuse = [&](const std::string& what) {
@@ -63,6 +71,7 @@ bool CommandLine::parse(int argc, const char* const* argv) {
   addFlag("list_options", "print the options as a table of values separated by tabs");
   addFlag("version", "print the version");
   read(withArgumentFiles({argv + 1, argv + argc}));
+  printRenamed();
   const std::pair<const char*, std::function<std::string()>> answers[] = {
       {"help", [this] { return help(); }},
       {"version", [this] { return toolAndVersion() + '\n'; }},
@@ -100,8 +109,11 @@ void CommandLine::read(const std::vector<std::string>& words) {
 std::size_t CommandLine::readOption(const std::vector<std::string>& words, std::size_t at) {
   const std::string& word = words[at++];
   const std::string name = nameIn(word) == "h" ? "help" : nameIn(word);
-  const Option* const option = find(name);
+  const auto [option, former] = named(name);
   if (option == nullptr) refuseUnknown(name);
+  if (former != nullptr)
+    renamed_.push_back("option -" + name + " is now called -" + option->name +
+                       "; the next release does not accept the former name");
   const std::size_t equals = word.find('=');
   if (option->role == Role::flag) {
     if (equals != std::string::npos) throw UsageError("option -" + name + ": takes no value");
@@ -109,11 +121,11 @@ std::size_t CommandLine::readOption(const std::vector<std::string>& words, std::
     return at;
   }
   if (equals != std::string::npos) {
-    take(*option, word.substr(equals + 1));
+    take(*option, inUnitOf(former, word.substr(equals + 1)));
   } else {
     if (at == words.size() || isOption(words[at]))
       throw UsageError("option -" + name + ": needs a value (see " + tool_ + " -h)");
-    take(*option, words[at++]);
+    take(*option, inUnitOf(former, words[at++]));
   }
   const auto continues = [](const std::string& next) {
     return (next.size() < 2 || next.front() != '-') && !isPointFile(next);
@@ -131,7 +143,13 @@ void CommandLine::take(const Option& option, const std::string& value) {
 }
 
 bool CommandLine::isOption(const std::string& word) const {
-  return word.size() > 1 && word.front() == '-' && (nameIn(word) == "h" || declares(nameIn(word)));
+  return word.size() > 1 && word.front() == '-' &&
+         (nameIn(word) == "h" || named(nameIn(word)).first != nullptr);
+}
+
+void CommandLine::printRenamed() const {
+  if (quiet()) return;
+  for (const std::string& text : renamed_) std::cerr << tool_ << ": " << text << std::endl;
 }
 
 void CommandLine::refuseUnknown(const std::string& option) const {
@@ -204,6 +222,14 @@ const Option* CommandLine::find(const std::string& name) const {
   const auto found = std::find_if(options_.begin(), options_.end(),
                                   [&](const Option& option) { return option.name == name; });
   return found == options_.end() ? nullptr : &*found;
+}
+
+std::pair<const Option*, const FormerName*> CommandLine::named(const std::string& name) const {
+  if (const Option* option = find(name)) return {option, nullptr};
+  for (const Option& option : options_)
+    for (const FormerName& former : option.former)
+      if (former.name == name) return {&option, &former};
+  return {nullptr, nullptr};
 }
 
 const Option& CommandLine::declared(const std::string& name) const {

@@ -119,6 +119,8 @@ class CommandLine {
   friend class OptionGroup;
   Option& add(const std::string& name, const std::string& help, Role role);
   const Option& declared(const std::string& name) const;
+  /// The option of this name or former name, with the former one; null where there is none.
+  std::pair<const Option*, const FormerName*> named(const std::string& name) const;
   void read(const std::vector<std::string>& words);
   std::size_t readOption(const std::vector<std::string>& words, std::size_t at);
   void take(const Option& option, const std::string& value);
@@ -126,6 +128,7 @@ class CommandLine {
   void checkRelations() const;
   void takeArguments();
   void protect(const CommandFiles& files);
+  void printRenamed() const;
   [[noreturn]] void refuseUnknown(const std::string& option) const;
 
   std::string tool_, purpose_, synopsis_, example_;
@@ -136,6 +139,7 @@ class CommandLine {
   std::vector<std::pair<std::string, std::string>> dependent_;
   std::map<std::string, std::vector<std::string>> values_;  ///< of the options that are given
   std::vector<std::string> arguments_, inputs_;
+  std::vector<std::string> renamed_;  ///< remarks about former names that are used
   std::string output_;
   FileProtection protection_;
 };

@@ -176,13 +176,14 @@ void checkFlightOptions(const CommandLine& line) {
 
 void addAccuracyOption(CommandLine& line, const std::string& use) {
   line.addInputFile(
-      "accuracy",
-      "accuracies of the trajectory over time, an Applanix smrmsg or RIEGL .poq file: " + use);
+          "trajectory_accuracy",
+          "accuracies of the trajectory over time, an Applanix smrmsg or RIEGL .poq file: " + use)
+      .formerly("accuracy");
 }
 
 std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line) {
-  return line.has("accuracy") ? readAccuracies(line.text("accuracy"))
-                              : std::vector<TrajectoryAccuracy>();
+  return line.has("trajectory_accuracy") ? readAccuracies(line.text("trajectory_accuracy"))
+                                         : std::vector<TrajectoryAccuracy>();
 }
 
 std::shared_ptr<const Trajectory> loadTrajectory(const CommandLine& line,

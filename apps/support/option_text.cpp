@@ -93,7 +93,7 @@ constexpr GroupNames kGroups[] = {{"inputs", "Inputs"},
                                   {"estimation", "What is estimated"},
                                   {"priors", "Priors and assumed errors"},
                                   {"output", "Output"},
-                                  {"further", "Further options"}};
+                                  {"others", "Further options"}};
 
 std::string helpOf(const Option& option) {
   std::string text = std::string(kOptionColumn, ' ') + "--" + option.name;

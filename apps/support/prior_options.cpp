@@ -71,7 +71,7 @@ GivenPrior::GivenPrior(const CommandLine& line, CalibrationSettings& settings) {
   if (!file_->earlier.systems.empty() && settings.systems.empty())
     throw InputError(file_->name +
                      ": has several systems, and this block is calibrated as one; "
-                     "divide its strips with -system, the first one as the first of the prior");
+                     "divide its strips with -systems, the first one as the first of the prior");
   if (line.has("prior_change"))
     line.parsed("prior_change", [&](const std::string& changes) {
       setChanges(changes, file_->change_std);

@@ -174,7 +174,7 @@ BatchOptions batchOptions(const CommandLine& line) {
   batch.resume = line.has("resume");
   batch.processes = processes();
   batch.settings = settingsText(line.toolAndVersion(), line.settings(),
-                                {"threads", "quiet", "resume", "report", "json"});
+                                {"threads", "quiet", "resume", "report", "output"});
   return batch;
 }
 
