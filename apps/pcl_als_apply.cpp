@@ -19,6 +19,20 @@ namespace {
 using namespace pcl_als;
 using app::CommandLine;
 
+void addUncertaintyOptions(CommandLine& line) {
+  const app::OptionGroup group(line, app::Group::output);
+  line.addFlag(
+      "uncertainty",
+      "add extra bytes sigma_horizontal (in the plane, compare RMSE_H) and sigma_vertical: "
+      "standard deviation of every point, m (LAS, LAZ)");
+  line.addOutputFile("uncertainty_raster",
+                     "GeoTIFF of these standard deviations, root mean squares in cells",
+                     {".tif", ".tiff"});
+  line.addNumber("uncertainty_cell", "size of its cells", 2.0, {0.01, 1e4, "m"});
+  line.exclude({"corrected", "uncertainty_raster"});
+  line.makeDependent("uncertainty_cell", "uncertainty_raster");
+}
+
 CommandLine commandLine() {
   CommandLine line("pcl_als_apply",
                    "removes known system biases from a point file (Habib et al. 2011, Eq. 13), or "
@@ -31,10 +45,12 @@ CommandLine commandLine() {
       {{"corrected", 1, app::Arguments::kAnyNumber}, {"", 1, 1, {".las", ".laz", ".pcd"}}});
   app::addFlightOptions(line);
   line.addInputFile("calibration", "calibration.json or history.json with the biases");
-  line.addText("biases",
+  line.addText("bias",
                "NAME=VALUE,... instead of a calibration: assumed - true, in m, arcsec or 1; "
-               "names as in calibration.json");
-  line.exclude({"calibration", "biases"}, true);
+               "names as in calibration.json")
+      .formerly("biases")
+      .in(app::Group::inputs);
+  line.exclude({"calibration", "bias"}, true);
   line.addOutputFolder("corrected", "folder for the corrected copies of any number of files",
                        app::copiesOfInputs());
   app::addResumeOption(line);
@@ -50,16 +66,7 @@ CommandLine commandLine() {
                  {"other_flight", "yes", "no"}, "other_flight");
   line.makeDependent("check", "calibration");
   line.exclude({"check", "invert"});
-  line.addFlag(
-      "uncertainty",
-      "add extra bytes sigma_horizontal (in the plane, compare RMSE_H) and sigma_vertical: "
-      "standard deviation of every point, m (LAS, LAZ)");
-  line.addOutputFile("uncertainty_raster",
-                     "GeoTIFF of these standard deviations, root mean squares in cells",
-                     {".tif", ".tiff"});
-  line.addNumber("uncertainty_cell", "size of its cells", 2.0, {0.01, 1e4, "m"});
-  line.exclude({"corrected", "uncertainty_raster"});
-  line.makeDependent("uncertainty_cell", "uncertainty_raster");
+  addUncertaintyOptions(line);
   app::addAccuracyOption(line,
                          "for -uncertainty at times of which the calibration knows nothing "
                          "(default: the trajectory's own columns)");
@@ -68,9 +75,10 @@ CommandLine commandLine() {
       "the calibration's verdict is not \"usable\", a file was corrected with it before, or inputs "
       "do not belong together");
   line.addFlag(
-      "no_record",
-      "do not record the correction in the output (default: LAS in a VLR, PCD in a comment "
-      "line, so that it is not made twice)");
+          "no_record",
+          "do not record the correction in the output (default: LAS in a VLR, PCD in a comment "
+          "line, so that it is not made twice)")
+      .in(app::Group::output);
   line.addFlag("keep_uncovered",
                "leave any number of points without a trajectory unchanged (default: up to 1 % of a "
                "file, which are counted; a file with more is refused)");
@@ -81,7 +89,7 @@ CommandLine commandLine() {
 CalibrationResult biasesOf(const CommandLine& line) {
   if (line.has("calibration")) return app::usableCalibration(line);
   CalibrationResult result;
-  const SystemVector biases = line.parsed("biases", biasesIn);
+  const SystemVector biases = line.parsed("bias", biasesIn);
   for (int i = 0; i < kSystemParameterCount; ++i) result.parameters[i].bias = biases[i];
   result.converged = true;
   return result;
@@ -89,8 +97,7 @@ CalibrationResult biasesOf(const CommandLine& line) {
 
 /// A calibration's biases belong to its model; biases by themselves take the best there is.
 AttitudeUse attitudeUse(const CommandLine& line, const CalibrationResult& calibration) {
-  return line.has("biases") ? app::attitudeUse(line)
-                            : trajectoryLoadingOptions(calibration).attitude;
+  return line.has("bias") ? app::attitudeUse(line) : trajectoryLoadingOptions(calibration).attitude;
 }
 
 FileCorrectionOptions optionsOf(const CommandLine& line, const CalibrationResult& calibration) {
@@ -132,7 +139,7 @@ void applyToMany(const CommandLine& line, const std::vector<std::string>& files,
 
 bool isToBeChecked(const CommandLine& line, const CalibrationResult& calibration,
                    const Trajectory& flight) {
-  if (line.has("biases") || line.has("invert") || line.text("check") == "no") return false;
+  if (line.has("bias") || line.has("invert") || line.text("check") == "no") return false;
   return line.text("check") == "yes" ||
          (line.has("corrected") && mayBeOfAnotherFlight(calibration, line.inputs(), flight));
 }
@@ -165,8 +172,8 @@ int apply(const CommandLine& line) {
   const auto flight = app::loadTrajectory(line, reference.crs, calibration.line_fit_half_width,
                                           attitudeUse(line, calibration), files, &stated);
   options.trajectory_accuracy =
-      line.has("accuracy") ? app::accuracies(line) : std::move(stated.accuracy);
-  if (line.has("biases")) calibration.attitude = attitudeOf(*flight);
+      line.has("trajectory_accuracy") ? app::accuracies(line) : std::move(stated.accuracy);
+  if (line.has("bias")) calibration.attitude = attitudeOf(*flight);
   app::remark(line,
               (options.invert ? "putting in: " : "taking out: ") + describeBiases(calibration));
 

@@ -58,6 +58,23 @@ void addWorkOptions(CommandLine& line) {
                  1e-3 * static_cast<double>(defaults.pair_budget), {0.0, 1e6, "thousands"});
 }
 
+void addOutputs(CommandLine& line) {
+  line.addOutputFile("output", "calibration.json to write", {".json"}).needed();
+  line.addOutputFolder("corrected",
+                       "folder for corrected copies of all strips, also beyond -bounds",
+                       app::copiesOfInputs());
+  app::addResumeOption(line);
+  line.addFlag("strip_corrections",
+               "with -corrected: also correct the estimated trajectory errors (not with -bounds)")
+      .in(app::Group::output);
+  line.exclude({"corrected", "keep_readable"});
+  line.exclude({"strip_corrections", "bounds"});
+  line.makeDependent("strip_corrections", "corrected");
+  app::addReportOption(line, "folder for report.html (with pictures), report.md, tables as CSV",
+                       {"parameters.csv", "control.csv", "held.csv", "systems.csv",
+                        "large_corrections.csv", "pairs.csv", "iterations.csv", "areas.csv"});
+}
+
 CommandLine commandLine() {
   CommandLine line("pcl_als_calibrate",
                    "estimates the biases of a LiDAR system's parameters from overlapping strips "
@@ -79,12 +96,14 @@ CommandLine commandLine() {
   app::addChannelOption(line);
   line.addText("system_name",
                "name and serial number of the instrument, for pcl_als_history (default: as the "
-               "point files state it)");
+               "point files state it)")
+      .in(app::Group::inputs);
   app::addPriorOptions(line);
   app::addSystemOptions(line);
   line.addText("pairs",
                "pairs of strips that are used, e.g. 1:2,3:4 (default: all that overlap); other "
-               "strips are used for control only");
+               "strips are used for control only")
+      .in(app::Group::strips);
   app::addEstimateOption(line, "the data determine");
   app::addModelOption(line);
   app::addForceOption(line,
@@ -92,20 +111,9 @@ CommandLine commandLine() {
                       "be applied");
   line.addFlag("vertical",
                "with quasi_rigorous: assume a vertical sensor aligned with the flight line, as "
-               "published, instead of recovering pitch and crab from the points");
-  line.addOutputFile("output", "calibration.json to write", {".json"}).needed();
-  line.addOutputFolder("corrected",
-                       "folder for corrected copies of all strips, also beyond -bounds",
-                       app::copiesOfInputs());
-  app::addResumeOption(line);
-  line.addFlag("strip_corrections",
-               "with -corrected: also correct the estimated trajectory errors (not with -bounds)");
-  line.exclude({"corrected", "keep_readable"});
-  line.exclude({"strip_corrections", "bounds"});
-  line.makeDependent("strip_corrections", "corrected");
-  app::addReportOption(line, "folder for report.html (with pictures), report.md, tables as CSV",
-                       {"parameters.csv", "control.csv", "held.csv", "systems.csv",
-                        "large_corrections.csv", "pairs.csv", "iterations.csv", "areas.csv"});
+               "published, instead of recovering pitch and crab from the points")
+      .in(app::Group::estimation);
+  addOutputs(line);
   app::addErrorOptions(line);
   app::addAccuracyOption(line,
                          "their root mean squares over the strips are the prior standard "

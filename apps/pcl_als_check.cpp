@@ -68,12 +68,14 @@ CommandLine commandLine() {
                  "has control where it is given",
                  {"QL0", "QL1", "QL2", "QL3"});
   line.addNumber("control_sigma", "standard deviation of control points whose file gives none",
-                 defaults.control_sigma, {0.0, 10.0, "m"});
+                 defaults.control_sigma, {0.0, 10.0, "m"})
+      .in(app::Group::priors);
   line.addNumber("max_distance", "larger offsets count as different objects",
                  defaults.limits.maximum_distance, {0.05, 50.0, "m"});
   line.addNumber("cell",
                  "cell size of the swath separation image; 0: as required by the quality level",
-                 0.0, {0.0, 100.0, "m"});
+                 0.0, {0.0, 100.0, "m"})
+      .in(app::Group::output);
   line.addNumber("points", "largest number of points in the areas that are compared", 12.0,
                  {0.01, 1000.0, "millions"});
   return line;

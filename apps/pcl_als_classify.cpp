@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 void checkOptions(const CommandLine& line) {
   if (!line.has("output") && !line.has("grids"))
     throw UsageError("one of the options -output and -grids is needed (see pcl_als_classify -h)");
-  if (line.has("output") && line.has("training") == line.has("model"))
-    throw UsageError("one of the options -training and -model is needed");
+  if (line.has("output") && line.has("training") == line.has("class_model"))
+    throw UsageError("one of the options -training and -class_model is needed");
   if (line.has("beside")) requireClassMap(line.text("beside"));
 }
 
@@ -67,7 +67,7 @@ LandCoverOptions optionsOf(const CommandLine& line, const RasterInput& files) {
                         line.has("crs") ? line.text("crs") : files.crs);
   options.training = sitesOf(line, "training");
   options.checks = sitesOf(line, "checkpoints");
-  if (line.has("model")) options.model = readClassModel(line.text("model"));
+  if (line.has("class_model")) options.model = readClassModel(line.text("class_model"));
   if (line.has("training")) options.training_name = line.text("training");
   if (line.has("checkpoints")) options.checks_name = line.text("checkpoints");
   options.reject = line.number("reject");
@@ -77,7 +77,7 @@ LandCoverOptions optionsOf(const CommandLine& line, const RasterInput& files) {
   options.map = pathOf(line, "output");
   options.grids = pathOf(line, "grids");
   options.posterior = pathOf(line, "posterior");
-  options.points = pathOf(line, "points");
+  options.points = pathOf(line, "classified");
   options.batch = batchOptions(line);
   return options;
 }
@@ -119,7 +119,8 @@ int classify(const CommandLine& line) {
   std::vector<std::string> notes = files.remarks;
   for (const std::string& part : describe(files.excluded)) notes.push_back(part);
   notes.insert(notes.end(), result.remarks.begin(), result.remarks.end());
-  if (line.has("save_model")) writeClassModel(line.text("save_model"), *result.model, notes);
+  if (line.has("save_class_model"))
+    writeClassModel(line.text("save_class_model"), *result.model, notes);
   if (!result.checks.sites.empty()) assess(line, result, files);
   if (line.has("map")) draw(line);
   if (!line.quiet()) {

@@ -40,29 +40,35 @@ CommandLine commandLine() {
   app::addWindowOptions(line);
   app::addStripOptions(line, false);
   line.addFlag(
-      "split",
-      "write a file for each strip into the output folder; points are divided into flight "
-      "lines at gaps in time, changes of course, turns and hovering; points between lines are "
-      "left out");
+          "split",
+          "write a file for each strip into the output folder; points are divided into flight "
+          "lines at gaps in time, changes of course, turns and hovering; points between lines are "
+          "left out")
+      .in(app::Group::strips);
   line.addFlag("keep_ids",
                "with -split: points keep their point source ids (default: lines that are not the "
-               "only one of their id get numbers of their own)");
+               "only one of their id get numbers of their own)")
+      .in(app::Group::output);
   line.makeDependent("keep_ids", "split");
   line.addFlag("number_lines",
                "write the files as they are, but with the number of its flight line as the point "
-               "source id of each point (0 between lines): for tiles with wrong ids");
+               "source id of each point (0 between lines): for tiles with wrong ids")
+      .in(app::Group::output);
   for (const char* other : {"split", "strips", "without"}) line.exclude({"number_lines", other});
   line.addChoice("las_version",
                  "version of the LAS and LAZ files, which are written as a whole (default: that of "
                  "the input, 1.4 from PCD); 1.5 has point formats 6 to 10 and its CRS as WKT",
-                 {"1.4", "1.5"});
+                 {"1.4", "1.5"})
+      .in(app::Group::output);
   line.addWhole("time_offset",
                 "of LAS 1.5: store absolute times less this offset, e.g. 1500 for the years 2023 "
                 "to 2031 (default: 1000 as in LAS 1.4)",
-                std::nullopt, {0, 65535, "million s"});
+                std::nullopt, {0, 65535, "million s"})
+      .in(app::Group::output);
   line.makeDependent("time_offset", "las_version");
   line.addChoice("format", "format of the files in an output folder (default: as the input)",
-                 {"las", "laz", "pcd"});
+                 {"las", "laz", "pcd"})
+      .in(app::Group::output);
   return line;
 }
 

@@ -30,11 +30,14 @@ CommandLine commandLine() {
                     "temperature (default: missions are in the order of the files)");
   line.addText("system_name",
                "name of the instrument whose calibrations are used (default: all have the same "
-               "name, or none)");
-  line.addText("system", "name of the system, needed for calibrations with several");
+               "name, or none)")
+      .in(Group::inputs);
+  line.addText("system", "name of the system, needed for calibrations with several")
+      .in(Group::inputs);
   line.addText("change",
                "standard deviations of changes between missions that are known, e.g. "
-               "boresight_roll=2,lever_arm_x=0.005 (m, arcsec; default: estimated)");
+               "boresight_roll=2,lever_arm_x=0.005 (m, arcsec; default: estimated)")
+      .in(Group::priors);
   line.addNumber("level", "level of each test, over the whole history", defaults.level,
                  {1e-6, 0.49, ""});
   addForceOption(line, "a calibration should not be applied by its own verdict");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <cmath>
 #include <iostream>
 #include <optional>
 
@@ -30,19 +31,26 @@ CommandLine commandLine() {
   line.addOutputFile("output", "result", {".json"}).needed();
   line.addOutputFile("transformed", "the source moved onto the target, of the kind of SOURCE",
                      {".las", ".laz", ".pcd"});
-  line.addText("pair", "A:B: strip A of the files onto strip B of the files");
+  line.addText("pair", "A:B: strip A of the files onto strip B of the files")
+      .in(app::Group::strips);
   app::addStripOptions(line);
-  line.addFlag("scale", "also estimate a scale");
-  line.addNumber("search_distance", "largest distance of the surfaces at the start",
-                 defaults.search_distance, {0.1, 200.0, "m"});
+  line.addFlag("estimate_scale", "also estimate a scale")
+      .formerly("scale")
+      .in(app::Group::estimation);
+  line.addNumber("max_distance", "largest distance of the surfaces at the start",
+                 defaults.search_distance, {0.1, 200.0, "m"})
+      .formerly("search_distance");
   line.addNumber("determined_std",
                  "parameters with a larger standard deviation, at the radius of the overlap, are "
                  "reported as not determined",
                  defaults.determined_std, {1e-4, 100.0, "m"});
-  line.addNumber("points", "approximate number of points of each strip that are triangulated",
-                 static_cast<double>(defaults.points), {1e3, 1e8});
-  line.addNumber("pairs", "approximate number of candidate points in each direction",
-                 static_cast<double>(defaults.pairs), {1e3, 1e8});
+  line.addNumber("points_per_strip",
+                 "approximate number of points of each strip that are triangulated",
+                 static_cast<double>(defaults.points), {1e3, 1e8})
+      .formerly("points");
+  line.addNumber("candidates", "approximate number of points in each direction that may form pairs",
+                 1e-3 * static_cast<double>(defaults.pairs), {1.0, 1e5, "thousands"})
+      .formerly("pairs", 1e-3);
   line.addWhole("iterations", "largest number of iterations of the last stage",
                 static_cast<std::uint64_t>(defaults.maximum_iterations), {1, 1000, {}});
   line.exclude({"pair", "transformed"});
@@ -60,12 +68,12 @@ AlignmentPair pairOf(const CommandLine& line) {
 
 PatchAlignmentSettings settingsOf(const CommandLine& line) {
   PatchAlignmentSettings settings;
-  settings.search_distance = line.number("search_distance");
+  settings.search_distance = line.number("max_distance");
   settings.determined_std = line.number("determined_std");
-  settings.points = static_cast<std::size_t>(line.number("points"));
-  settings.pairs = static_cast<std::size_t>(line.number("pairs"));
+  settings.points = static_cast<std::size_t>(line.number("points_per_strip"));
+  settings.pairs = static_cast<std::size_t>(std::lround(1e3 * line.number("candidates")));
   settings.maximum_iterations = static_cast<int>(line.whole("iterations"));
-  settings.estimate_scale = line.has("scale");
+  settings.estimate_scale = line.has("estimate_scale");
   settings.threads = line.threads();
   return settings;
 }

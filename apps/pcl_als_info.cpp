@@ -21,7 +21,7 @@ namespace {
 
 ListedTrajectory flightOf(const CommandLine& line) {
   ListedTrajectory flight;
-  if (line.has("accuracy")) flight.accuracy_path = line.text("accuracy");
+  if (line.has("trajectory_accuracy")) flight.accuracy_path = line.text("trajectory_accuracy");
   flight.accuracy = accuracies(line);
   if (!line.has("trajectory")) return flight;
   flight.trajectories = inspectFlight(trajectoryFiles(line), trajectoryReading(line, {}));
@@ -31,14 +31,14 @@ ListedTrajectory flightOf(const CommandLine& line) {
 CommandLine commandLine() {
   CommandLine line("pcl_als_info",
                    "lists the contents of point files: strips, times, density, returns, overlaps",
-                   "FILE… [-trajectory T] [-json FILE]",
-                   "pcl_als_info strip1.las strip2.las -json survey.json");
+                   "FILE… [-trajectory T] [-output FILE]",
+                   "pcl_als_info strip1.las strip2.las -output survey.json");
   line.setArguments({{"trajectory", 0, Arguments::kAnyNumber},
-                     {"accuracy", 0, Arguments::kAnyNumber},
+                     {"trajectory_accuracy", 0, Arguments::kAnyNumber},
                      {"", 1, Arguments::kAnyNumber}});
   line.addNumber("cell", "cell size for density and overlaps; 0: by density", 0.0,
                  {0.0, 10000.0, "m"});
-  line.addOutputFile("json", "also write the facts", {".json"});
+  line.addOutputFile("output", "also write the facts", {".json"}).formerly("json");
   addWindowOptions(line);
   addTrajectoryOptions(line, "listed, and used to detect the scanner and by -split");
   addStripOptions(line);
@@ -71,7 +71,7 @@ int info(const CommandLine& line) {
   ListedTrajectory flight = flightOf(line);
   if (!line.quiet()) std::cout << flightText(flight);
   if (inputs.empty()) {
-    if (line.has("json")) writeFile(line.text("json"), inventoryJson({}, {}, flight));
+    if (line.has("output")) writeFile(line.text("output"), inventoryJson({}, {}, flight));
     return kDone;
   }
   Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
@@ -95,8 +95,8 @@ int info(const CommandLine& line) {
     app::nameOptions(line, flight.assessment.warnings);
     if (!line.quiet()) std::cout << assessmentText(flight.assessment);
   }
-  if (line.has("json"))
-    writeFile(line.text("json"), inventoryJson(survey, listed.excluded, flight));
+  if (line.has("output"))
+    writeFile(line.text("output"), inventoryJson(survey, listed.excluded, flight));
   return kDone;
 }
 

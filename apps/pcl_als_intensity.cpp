@@ -30,7 +30,8 @@ CommandLine commandLine() {
       "corrects intensity for range, incidence and atmosphere (radar equation; Habib et al. 2011, "
       "Eq. 35-36), from the points' calibrated geometry and the trajectory.\n"
       "I_c = I / gain (r / r0)^m / cos(incidence)^k exp(2 a (r - r0)), linear, in the intensity "
-      "field times -scale; extra bytes: original_intensity, range, incidence_angle, and with "
+      "field times -intensity_scale; extra bytes: original_intensity, range, incidence_angle, and "
+      "with "
       "-targets reflectance. Points without a surface (trees) and returns before the last are "
       "corrected for range and atmosphere only.",
       "IN OUT -trajectory T [options], or STRIP… -corrected DIR -trajectory T [options]",
@@ -90,7 +91,7 @@ int intensity(const CommandLine& line) {
   if (!isRoot(app::processes())) return app::kDone;
   if (!line.quiet()) print(result);
   const IntensityReport report{&result, extinction, options.output, outputs};
-  if (line.has("json")) writeIntensityJson(line.text("json"), report);
+  if (line.has("output")) writeIntensityJson(line.text("output"), report);
   if (page) writeReport(line, report, *page);
   return app::conclude(line, result.unreliable);
 }

@@ -32,14 +32,17 @@ CommandLine commandLine() {
   line.addNumber("angle", "least angle between the faces of a line",
                  std::round(defaults.settings.least_angle / kRadiansPerDegree),
                  {3.0, 90.0, "degrees"});
-  line.addNumber("noise", "standard deviation of points about a roof; 0: from the points",
-                 defaults.settings.noise, {0.0, 1.0, "m"});
+  line.addNumber("point_noise", "standard deviation of points about a roof; 0: from the points",
+                 defaults.settings.noise, {0.0, 1.0, "m"})
+      .formerly("noise")
+      .in(app::Group::priors);
   line.addNumber("same_distance", "lines of different strips closer than this are the same",
                  defaults.same_distance, {0.05, 20.0, "m"});
   line.addNumber("strip_sigma",
                  "standard deviation of the errors of a strip where fewer than ten lines are seen "
                  "in several strips, from whose differences it is estimated otherwise",
-                 defaults.assumed.plan, {0.0, 10.0, "m"});
+                 defaults.assumed.plan, {0.0, 10.0, "m"})
+      .in(app::Group::priors);
   return line;
 }
 
@@ -49,7 +52,7 @@ LineExtractionOptions optionsOf(const CommandLine& line) {
   options.settings.least_length = line.number("length");
   options.settings.least_area = line.number("area");
   options.settings.least_angle = line.number("angle") * kRadiansPerDegree;
-  options.settings.noise = line.number("noise");
+  options.settings.noise = line.number("point_noise");
   options.settings.threads = line.threads();
   options.same_distance = line.number("same_distance");
   options.assumed.plan = options.assumed.height = line.number("strip_sigma");

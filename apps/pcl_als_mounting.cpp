@@ -23,6 +23,7 @@ std::vector<std::string> conventionWords() {
 }
 
 void addConventionOptions(CommandLine& line) {
+  const OptionGroup group(line, Group::inputs);
   line.addChoice("convention",
                  "how the program states a mounting; list prints what each one means, with its "
                  "source",
@@ -59,10 +60,12 @@ CommandLine commandLine() {
   line.addInputFile("calibration",
                     "calibration.json or history.json of points that were computed with -angles");
   addConventionOptions(line);
-  line.addText("angles", "the old angles A,B,C, in the order of the convention");
+  line.addText("angles", "the old angles A,B,C, in the order of the convention").in(Group::inputs);
   line.addText("lever_arm",
-               "the old lever arm X,Y,Z, m (default: not known, the change of it is given)");
-  line.addText("system", "the scanner, where the calibration has several systems");
+               "the old lever arm X,Y,Z, m (default: not known, the change of it is given)")
+      .in(Group::inputs);
+  line.addText("system", "the scanner, where the calibration has several systems")
+      .in(Group::inputs);
   line.addNumber("range", "distance of points at which differences of angles are stated", 1000.0,
                  {1.0, 10000.0, "m"});
   line.addOutputFile("output", "mounting.json to write, with the covariance", {".json"});

@@ -57,7 +57,8 @@ CommandLine commandLine() {
   line.addNumber("image_sigma",
                  "standard deviation of image coordinates without one, in the unit of the camera; "
                  "0: 0.5 px or 0.003 mm",
-                 defaults.image_sigma, {0.0, 100.0});
+                 defaults.image_sigma, {0.0, 100.0})
+      .in(app::Group::priors);
   line.addFlag("no_rejection", "least squares with all observations");
   return line;
 }

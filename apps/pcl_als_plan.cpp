@@ -22,23 +22,20 @@ using app::Step;
 
 constexpr double kComplete = 0.995;  // of the lines: less is worth a remark
 
-CommandLine commandLine() {
+void addPlannedFlight(CommandLine& line) {
+  const app::OptionGroup group(line, app::Group::inputs);
   const SurfaceModel surface;
-  CommandLine line("pcl_als_plan",
-                   "predicts the standard deviations of the parameters from a planned calibration "
-                   "flight, and which line to add.",
-                   "-lines plan.csv [options]",
-                   "pcl_als_plan -lines plan.csv -control 5 -density 2 -output plan.json");
   line.addInputFile("lines",
                     "lines: CSV id,x1,y1,x2,y2,height[,speed][,density], metres in any local "
                     "frame, height above mean ground")
       .needed();
   line.addNumber("fov", "full field of view", 40.0, {1.0, 120.0, "degrees"});
   line.addNumber("speed", "speed of lines whose file gives none", 60.0, {1.0, 400.0, "m/s"});
-  line.addNumber("density", "pulses of lines whose file gives none (default: 1)", {},
-                 {0.01, 400.0, "per m2"});
-  line.addNumber("spacing", "point spacing instead of -density", {}, {0.05, 10.0, "m"});
-  line.exclude({"density", "spacing"});
+  line.addNumber("pulse_density", "pulses of lines whose file gives none (default: 1)", {},
+                 {0.01, 400.0, "per m2"})
+      .formerly("density");
+  line.addNumber("spacing", "point spacing instead of -pulse_density", {}, {0.05, 10.0, "m"});
+  line.exclude({"pulse_density", "spacing"});
   line.addNumber("ground_slope", "RMS slope of open ground; 0: a plane",
                  surface.ground_slope / kRadiansPerDegree, {0.0, 45.0, "degrees"});
   line.addNumber("slope", "slope of steep surfaces (roofs, banks)",
@@ -53,6 +50,15 @@ CommandLine commandLine() {
   line.exclude({"terrain", "ground_slope"});
   line.addWhole("control", "number of vertical control points, distributed over the block", 0,
                 {0, 1000, {}});
+}
+
+CommandLine commandLine() {
+  CommandLine line("pcl_als_plan",
+                   "predicts the standard deviations of the parameters from a planned calibration "
+                   "flight, and which line to add.",
+                   "-lines plan.csv [options]",
+                   "pcl_als_plan -lines plan.csv -control 5 -pulse_density 2 -output plan.json");
+  addPlannedFlight(line);
   app::addEstimateOption(line, "the flight determines");
   line.addOutputFile("output", "plan.json to write", {".json"});
   app::addErrorOptions(line);
@@ -61,7 +67,7 @@ CommandLine commandLine() {
 
 double densityOf(const CommandLine& line) {
   if (line.has("spacing")) return std::pow(line.number("spacing"), -2.0);
-  return line.has("density") ? line.number("density") : 1.0;
+  return line.has("pulse_density") ? line.number("pulse_density") : 1.0;
 }
 
 SurfaceModel surfaceOf(const CommandLine& line, const std::vector<StripGeometry>& lines) {

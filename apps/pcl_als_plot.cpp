@@ -59,8 +59,10 @@ CommandLine commandLine() {
   line.addOutputFolder("output", "folder for a file NAME.png of every plot", pictures).needed();
   line.addText("plots",
                "only these, e.g. parameters,residuals (default: all that the files "
-               "hold)");
-  line.addChoice("format", "of the files: png, svg or pdf", formats(), "png");
+               "hold)")
+      .in(app::Group::output);
+  line.addChoice("format", "of the files: png, svg or pdf", formats(), "png")
+      .in(app::Group::output);
   app::addSizeOption(line);
   return line;
 }

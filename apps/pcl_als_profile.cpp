@@ -62,7 +62,7 @@ CommandLine commandLine() {
       "output", "picture to write, with -auto a folder for profile1.png, …", app::pictureEndings());
   output.needed().files = filesInFolder;
   app::addSizeOption(line);
-  line.addText("title", "text above (default: names of the files)");
+  line.addText("title", "text above (default: names of the files)").in(app::Group::output);
   return line;
 }
 

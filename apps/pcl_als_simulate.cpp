@@ -19,9 +19,11 @@ using simulation::SimulationOptions;
 void declareScene(CommandLine& line) {
   line.addFlag("images",
                "also images of the block with a frame camera, in the folder images: camera.json, "
-               "images.csv, measurements.csv, checkpoints.csv and the truth");
-  line.addWhole("targets", "number of white level circular targets in control.csv", 0,
-                {0, 1000, {}});
+               "images.csv, measurements.csv, checkpoints.csv and the truth")
+      .in(Group::output);
+  line.addWhole("target_count", "number of white level circular targets in control.csv", 0,
+                {0, 1000, {}})
+      .formerly("targets");
   line.addNumber("target_diameter", "diameter of the targets", 2.0, {0.1, 20.0, "m"});
   line.addNumber("relief", "factor on the heights of the terrain; 0: a plane", 1.0, {0.0, 1.5});
   line.addNumber("buildings", "factor on their number", 1.0, {0.0, 1.0});
@@ -66,16 +68,18 @@ void addPointOptions(CommandLine& line) {
                  {0.0, 4.0});
   line.addNumber("incidence_exponent", "power of cos(incidence); 1: Lambertian", 1.0, {0.0, 4.0});
   line.addNumber("visibility", "visibility", 48.3, {0.1, 500.0, "km"});
-  line.addChoice("format", "format of the strips", {"las", "laz"}, "las");
+  line.addChoice("format", "format of the strips", {"las", "laz"}, "las").in(Group::output);
 }
 
 /// What is known of each point of a simulation.
 void declareTruth(CommandLine& line) {
   line.addFlag("truth_points",
-               "extra bytes bias_x, bias_y, bias_z: effect of biases and errors on each point, m");
+               "extra bytes bias_x, bias_y, bias_z: effect of biases and errors on each point, m")
+      .in(Group::output);
   line.addFlag("true_surface",
                "extra bytes error_x, error_y, error_z: each point minus that of the true surface, "
-               "m: biases, errors of the trajectory and noise");
+               "m: biases, errors of the trajectory and noise")
+      .in(Group::output);
 }
 
 CommandLine declare() {
@@ -129,7 +133,8 @@ CommandLine declare() {
   line.addChoice("time",
                  "times of the points: week (seconds) or adjusted (standard GPS time); the "
                  "trajectory has seconds of the week",
-                 {"week", "adjusted"}, "week");
+                 {"week", "adjusted"}, "week")
+      .in(Group::output);
   declareTruth(line);
   addPointOptions(line);
   return line;
@@ -164,7 +169,7 @@ SimulationOptions optionsFrom(const CommandLine& line) {
   options.scene.relief *= line.number("relief");
   options.scene.buildings = line.number("buildings");
   options.scene.trees = line.number("trees");
-  options.targets = static_cast<int>(line.whole("targets"));
+  options.targets = static_cast<int>(line.whole("target_count"));
   options.target_diameter = line.number("target_diameter");
   setIntensity(line, options);
   options.check();

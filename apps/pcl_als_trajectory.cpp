@@ -35,7 +35,7 @@ CommandLine commandLine() {
       line, "standard deviations to write (default: those of the trajectory's own columns)");
   line.addInputFile("calibration", "calibration.json that is applied");
   line.addFlag("lever_arm_only", "do not apply the strip corrections of the calibration");
-  for (const char* name : {"calibration", "accuracy", "lever_arm_only"})
+  for (const char* name : {"calibration", "trajectory_accuracy", "lever_arm_only"})
     line.makeDependent(name, "trajectory");
   line.addOutputFile("output",
                      "trajectory to write: .csv with columns of standard deviations where "
@@ -48,7 +48,8 @@ CommandLine commandLine() {
                        "of points: folder for report.html (pictures inside), report.md and tables "
                        "as CSV",
                        {"paths.csv", "rays.csv", "angles.csv"});
-  line.addFlag("positions", "of points: positions only, without recovering the attitude");
+  line.addFlag("positions", "of points: positions only, without recovering the attitude")
+      .in(app::Group::estimation);
   return line;
 }
 

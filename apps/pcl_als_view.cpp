@@ -27,33 +27,35 @@ CommandLine commandLine() {
       "pcl_als_view strip*.las -output strips.png -color strip -shade edl");
   line.setArguments({{"", 1, app::Arguments::kAnyNumber}});
   line.addOutputFile("output", "picture to write", app::pictureEndings());
-  line.addFlag("window", "show the points in a window; needs a display");
+  line.addFlag("window", "show the points in a window; needs a display").in(app::Group::output);
   line.exclude({"output", "window"}, true);
   line.addText("color",
                "elevation, intensity, strip, class, return, scan_angle, time, difference, "
                "or an extra-bytes field",
                "elevation");
-  line.addText("reference", "with -color difference: the strip to which heights refer");
+  line.addText("reference_strip", "with -color difference: the strip to which heights refer")
+      .formerly("reference");
   line.addNumber(
       "cell",
       "with -color difference: cell size of the planes of the reference strip; 0: by density", 0.0,
       {0.0, 1000.0, "m"});
-  line.addText("map", "colour map: viridis, cividis, diverging, gray (default: by attribute)");
-  line.addText("range",
-               "LOW:HIGH of the colours (default: 1st to 99th percentile of the points drawn)");
-  app::addWindowOptions(line);
+  line.addText("color_map", "colour map: viridis, cividis, diverging, gray (default: by attribute)")
+      .formerly("map");
+  line.addText("color_range",
+               "LOW:HIGH of the colours (default: 1st to 99th percentile of the points drawn)")
+      .formerly("range");
+  app::addWindowOptions(line).formerly("extent");
   app::addStripOptions(line);
   line.addNumber("azimuth", "viewing direction of the camera, clockwise from north", 0.0,
                  {-360.0, 360.0, "degrees"});
   line.addNumber("elevation", "height of the camera above the horizon; 90: top view", 90.0,
                  {0.0, 90.0, "degrees"});
   line.addNumber("zoom", "magnification about the centre", 1.0, {1e-3, 1e6});
-  line.addText("extent", "XMIN,YMIN,XMAX,YMAX: draw this part only, m");
   line.addChoice("shade", "none, edl (eye-dome lighting) or hill", {"none", "edl", "hill"}, "none");
   line.addNumber("point_size", "size of the points; 0: as large as the gaps between points", 0.0,
                  {0.0, 64.0, "pixels"});
   app::addSizeOption(line);
-  line.addText("title", "text above (default: names of the files)");
+  line.addText("title", "text above (default: names of the files)").in(app::Group::output);
   line.addFlag("bare", "points only, without title, legend and scale");
   return line;
 }
@@ -64,8 +66,9 @@ PointShade shadeOf(const CommandLine& line) {
 }
 
 std::pair<double, double> rangeOf(const CommandLine& line) {
-  const std::vector<double> range = app::numbersOf(line, "range", ':', 2, app::kFarthest);
-  if (!(range[0] < range[1])) throw UsageError("option -range: LOW:HIGH needs LOW below HIGH");
+  const std::vector<double> range = app::numbersOf(line, "color_range", ':', 2, app::kFarthest);
+  if (!(range[0] < range[1]))
+    throw UsageError("option -color_range: LOW:HIGH needs LOW below HIGH");
   return {range[0], range[1]};
 }
 
@@ -74,16 +77,16 @@ SurveyPictureOptions optionsOf(const CommandLine& line, const std::vector<std::s
   const PictureSize size = app::sizeOf(line);
   options.width = size.width, options.height = size.height;
   options.attribute = line.text("color");
-  if (line.has("reference")) options.reference = line.text("reference");
+  if (line.has("reference_strip")) options.reference = line.text("reference_strip");
   options.difference_cell = line.number("cell");
   options.window = app::windowOf(line);
   options.strips = app::stripChoice(line);
   options.azimuth = line.number("azimuth");
   options.elevation = line.number("elevation");
   options.zoom = line.number("zoom");
-  if (line.has("extent")) options.extent = app::rectangleOf(line, "extent");
-  if (line.has("map")) options.color_map = line.text("map");
-  if (line.has("range")) options.range = rangeOf(line);
+  options.extent = options.window.bounds;
+  if (line.has("color_map")) options.color_map = line.text("color_map");
+  if (line.has("color_range")) options.range = rangeOf(line);
   options.shade = shadeOf(line);
   options.point_size = line.number("point_size");
   options.title = line.has("title") ? line.text("title") : fileNames(inputs);

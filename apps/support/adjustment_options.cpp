@@ -12,6 +12,7 @@
 namespace pcl_als::app {
 
 void addErrorOptions(CommandLine& line) {
+  const OptionGroup group(line, Group::priors);
   const CalibrationSettings defaults;
   line.addNumber("range_noise", "standard deviation of ranges", defaults.noise.range,
                  {1e-4, 1.0, "m"});
@@ -56,7 +57,7 @@ SharedErrorModel sharedErrorsOf(const CommandLine& line) {
 void addEstimateOption(CommandLine& line, const std::string& subject) {
   const std::string help =
       "parameters to estimate, e.g. boresight_roll,range_bias; auto: all that " + subject;
-  line.addText("estimate", help, "auto");
+  line.addText("estimate", help, "auto").in(Group::estimation);
 }
 
 std::vector<SystemParameter> parametersToEstimate(const CommandLine& line) {
@@ -65,10 +66,12 @@ std::vector<SystemParameter> parametersToEstimate(const CommandLine& line) {
 }
 
 void addSystemOptions(CommandLine& line) {
-  line.addTexts("system",
+  const OptionGroup group(line, Group::estimation);
+  line.addTexts("systems",
                 "NAME=STRIPS[:CHANNEL] ...: systems with biases of their own, e.g. north=1-4 "
                 "south=5-9, or a=1-9:0 b=1-9:1 with -channels; strips that none names are of the "
-                "first one");
+                "first one")
+      .formerly("system");
   line.addText("fixed",
                "strips that are held fixed, e.g. 1,4-6: an earlier delivery, already corrected, "
                "that the block joins; they are not corrected");
@@ -76,18 +79,18 @@ void addSystemOptions(CommandLine& line) {
                  "standard deviation of an error that all fixed strips share, each axis",
                  CalibrationSettings().fixed_sigma, {0.0, 10.0, "m"});
   line.addText("own",
-               "with -system: what a system has of its own: boresight, lever_arm, names of "
+               "with -systems: what a system has of its own: boresight, lever_arm, names of "
                "parameters, offset of coordinates (default: boresight,range_bias,"
                "scan_angle_scale)");
-  line.makeDependent("own", "system");
+  line.makeDependent("own", "systems");
   line.makeDependent("fixed_sigma", "fixed");
 }
 
 void readSystems(const CommandLine& line, CalibrationSettings& settings) {
   settings.fixed_sigma = line.number("fixed_sigma");
   if (line.has("fixed")) settings.fixed = stripGroup("fixed=" + line.text("fixed")).strips;
-  if (line.has("system")) {
-    for (const std::string& text : line.list("system"))
+  if (line.has("systems")) {
+    for (const std::string& text : line.list("systems"))
       settings.systems.push_back(stripGroup(text));
   }
   if (line.has("own")) settings.own = ownUnknowns(line.text("own"));

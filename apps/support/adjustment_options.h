@@ -23,7 +23,7 @@ SharedErrorModel sharedErrorsOf(const CommandLine& line);
 void addEstimateOption(CommandLine& line, const std::string& subject);
 std::vector<SystemParameter> parametersToEstimate(const CommandLine& line);
 
-/// Adds -system, -own, -fixed and -fixed_sigma, which readSystems() takes into the settings.
+/// Adds -systems, -own, -fixed and -fixed_sigma, which readSystems() takes into the settings.
 void addSystemOptions(CommandLine& line);
 void readSystems(const CommandLine& line, CalibrationSettings& settings);
 

@@ -16,6 +16,7 @@ namespace pcl_als::app {
 namespace {
 
 void addOutputs(CommandLine& line) {
+  const OptionGroup group(line, Group::output);
   const std::vector<std::string> raster{".tif", ".tiff"};
   line.addOutputFile("output", "the map of classes; -grids may be written without it", raster);
   line.addOutputFile("grids", "also keep the rasters of the strips, in nine bands", raster);
@@ -23,7 +24,8 @@ void addOutputs(CommandLine& line) {
   line.addOutputFile("accuracy", "accuracy at the check points", {".json"});
   line.addOutputFile("checked", "the check points with their classes, for pcl_als_accuracy",
                      {".csv"});
-  line.addOutputFile("save_model", "statistics of the classes for -model", {".json"});
+  line.addOutputFile("save_class_model", "statistics of the classes for -class_model", {".json"})
+      .formerly("save_model");
   line.addOutputFile("map", "picture of the map with its legend", pictureEndings());
   line.addInputFile("beside",
                     "another map of classes (GeoTIFF) that is drawn to the left of the map");
@@ -31,11 +33,13 @@ void addOutputs(CommandLine& line) {
                "captions of -beside and of the map, separated by a comma (default: before,after)");
   addResumeOption(line);
   line.addOutputFolder(
-      "points",
-      "folder for copies of the point files with ASPRS classes; noise (7, 18), points without a "
-      "class and points of strips that are left out keep their code",
-      copiesOfInputs());
-  for (const char* name : {"posterior", "accuracy", "checked", "save_model", "map", "points"})
+          "classified",
+          "folder for copies of the point files with ASPRS classes; noise (7, 18), "
+          "points without a class and points of strips that are left out keep their code",
+          copiesOfInputs())
+      .formerly("points");
+  for (const char* name :
+       {"posterior", "accuracy", "checked", "save_class_model", "map", "classified"})
     line.makeDependent(name, "output");
   for (const char* name : {"accuracy", "checked"}) line.makeDependent(name, "checkpoints");
   line.makeDependent("beside", "map");
@@ -53,22 +57,30 @@ CommandLine declareClassify() {
                    "landcover.png");
   line.setArguments({{"", 1, Arguments::kAnyNumber}});
   line.addInputFile("training", "training sites: CSV x,y,class or GeoJSON with property class");
-  line.addInputFile("model", "statistics of the classes from -save_model instead of training");
+  line.addInputFile("class_model",
+                    "statistics of the classes from -save_class_model instead of training")
+      .formerly("model");
   line.addInputFile("checkpoints", "check sites, as training");
   addUnitsOption(line, "sites", "-training and -checkpoints");
   addStripOptions(line);
   addOutputs(line);
-  line.addNumber("cell", "side of the cells", 1.0, {0.01, 1000.0, "m"});
-  line.addText("extent", "WEST,SOUTH,EAST,NORTH of the rasters, m (default: all points)");
+  line.addNumber("cell", "side of the cells", 1.0, {0.01, 1000.0, "m"}).in(Group::output);
+  line.addText(
+          "bounds",
+          "XMIN,YMIN,XMAX,YMAX, m: make rasters of this rectangle only (default: of all points)")
+      .formerly("extent")
+      .in(Group::output);
   line.addText("crs",
                "CRS of the rasters, which are georeferenced in its unit (default: that of the "
-               "point files); heights are in metres");
+               "point files); heights are in metres")
+      .in(Group::output);
   line.addText("bands",
                "bands by which classes are separated, from surface, terrain, height, "
                "intensity, slope, roughness, multiple_returns, height_range, density",
                "height,intensity,roughness,multiple_returns");
   line.addText("priors",
-               "CLASS=P,…: probabilities of classes; the others share the rest (default: equal)");
+               "CLASS=P,…: probabilities of classes; the others share the rest (default: equal)")
+      .in(Group::priors);
   line.addNumber("reject",
                  "probability of the chi-squared distribution below which a cell has no class", 0.0,
                  {0.0, 0.5});
@@ -109,8 +121,8 @@ SurfaceOptions surfaceOptionsOf(const CommandLine& line) {
 RasterGrid gridOf(const CommandLine& line, double min_x, double min_y, double max_x, double max_y,
                   const std::string& crs) {
   const double cell = line.number("cell");
-  if (!line.has("extent")) return RasterGrid::covering(min_x, min_y, max_x, max_y, cell, crs);
-  const Eigen::AlignedBox2d extent = rectangleOf(line, "extent");
+  if (!line.has("bounds")) return RasterGrid::covering(min_x, min_y, max_x, max_y, cell, crs);
+  const Eigen::AlignedBox2d extent = rectangleOf(line, "bounds");
   // Edges that are multiples of the cell size give no further row or column.
   const double inner = 1e-6 * cell;
   return RasterGrid::covering(extent.min().x() + inner, extent.min().y() + inner,

@@ -17,7 +17,7 @@ CommandLine declareClassify();
 
 /// UsageError naming the option, for each of them.
 SurfaceOptions surfaceOptionsOf(const CommandLine& line);
-/// The raster over the files' box, or over that of -extent.
+/// The raster over the files' box, or over that of -bounds.
 RasterGrid gridOf(const CommandLine& line, double min_x, double min_y, double max_x, double max_y,
                   const std::string& crs);
 

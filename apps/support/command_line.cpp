@@ -31,6 +31,14 @@ std::string nameIn(const std::string& word) {
   return name;
 }
 
+/// The value in today's unit of the option; \a former: the name by which it is given, if that is a
+/// former one.
+std::string inUnitOf(const FormerName* former, const std::string& value) {
+  const auto number = finiteNumber(value);
+  const bool is_same = former == nullptr || former->factor == 1.0 || !number;
+  return is_same ? value : shortText(*number * former->factor);
+}
+
 /// UsageError unless an option takes the value.
 void checkValue(const Option& option, const std::string& value) {
   const auto refuse = [&](const std::string& what) {
@@ -55,109 +63,6 @@ void checkValue(const Option& option, const std::string& value) {
 
 }  // namespace
 
-FolderFiles always(std::vector<std::string> names) {
-  return [names = std::move(names)](const CommandLine&) { return std::optional(names); };
-}
-
-FolderFiles copiesOfInputs() {
-  return [](const CommandLine& line) {
-    std::vector<std::string> names;
-    for (const std::string& input : line.inputs())
-      names.push_back(std::filesystem::path(input).filename().string());
-    return std::optional(names);
-  };
-}
-
-CommandLine::CommandLine(std::string tool, std::string purpose, std::string synopsis,
-                         std::string example)
-    : tool_(std::move(tool)),
-      purpose_(std::move(purpose)),
-      synopsis_(std::move(synopsis)),
-      example_(std::move(example)) {}
-
-Option& CommandLine::add(const std::string& name, const std::string& help, Role role) {
-  Option& option = options_.emplace_back();
-  option.name = name, option.help = help, option.role = role;
-  return option;
-}
-
-Option& CommandLine::addFlag(const std::string& name, const std::string& help) {
-  return add(name, help, Role::flag);
-}
-
-Option& CommandLine::addText(const std::string& name, const std::string& help,
-                             std::optional<std::string> preset) {
-  Option& option = add(name, help, Role::text);
-  option.preset = std::move(preset);
-  return option;
-}
-
-Option& CommandLine::addTexts(const std::string& name, const std::string& help) {
-  Option& option = add(name, help, Role::text);
-  option.is_list = true;
-  return option;
-}
-
-Option& CommandLine::addNumber(const std::string& name, const std::string& help,
-                               std::optional<double> preset, Range range) {
-  Option& option = add(name, help, Role::number);
-  if (preset) option.preset = shortText(*preset);
-  option.range = std::move(range);
-  return option;
-}
-
-Option& CommandLine::addWhole(const std::string& name, const std::string& help,
-                              std::optional<std::uint64_t> preset, Range range) {
-  Option& option = add(name, help, Role::whole);
-  if (preset) option.preset = std::to_string(*preset);
-  option.range = std::move(range);
-  return option;
-}
-
-Option& CommandLine::addChoice(const std::string& name, const std::string& help,
-                               std::vector<std::string> words, std::optional<std::string> preset) {
-  Option& option = add(name, help, Role::choice);
-  option.words = std::move(words);
-  option.preset = std::move(preset);
-  return option;
-}
-
-Option& CommandLine::addInputFile(const std::string& name, const std::string& help,
-                                  InputFiles inputs) {
-  Option& option = add(name, help, Role::input);
-  option.inputs = std::move(inputs);
-  return option;
-}
-
-Option& CommandLine::addInputFiles(const std::string& name, const std::string& help,
-                                   InputFiles inputs) {
-  Option& option = addInputFile(name, help, std::move(inputs));
-  option.is_list = true;
-  return option;
-}
-
-Option& CommandLine::addOutputFile(const std::string& name, const std::string& help,
-                                   std::vector<std::string> extensions) {
-  Option& option = add(name, help, Role::output);
-  option.words = std::move(extensions);
-  return option;
-}
-
-Option& CommandLine::addOutputFolder(const std::string& name, const std::string& help,
-                                     FolderFiles files) {
-  Option& option = add(name, help, Role::folder);
-  option.files = std::move(files);
-  return option;
-}
-
-void CommandLine::exclude(std::vector<std::string> names, bool needed) {
-  exclusive_.emplace_back(std::move(names), needed);
-}
-
-void CommandLine::makeDependent(const std::string& name, const std::string& on) {
-  dependent_.emplace_back(name, on);
-}
-
 bool CommandLine::parse(int argc, const char* const* argv) {
   addWhole("threads", "number of threads; 0: all cores", 0,
            {0, std::numeric_limits<int>::max(), {}});
@@ -166,6 +71,7 @@ bool CommandLine::parse(int argc, const char* const* argv) {
   addFlag("list_options", "print the options as a table of values separated by tabs");
   addFlag("version", "print the version");
   read(withArgumentFiles({argv + 1, argv + argc}));
+  printRenamed();
   const std::pair<const char*, std::function<std::string()>> answers[] = {
       {"help", [this] { return help(); }},
       {"version", [this] { return toolAndVersion() + '\n'; }},
@@ -203,8 +109,11 @@ void CommandLine::read(const std::vector<std::string>& words) {
 std::size_t CommandLine::readOption(const std::vector<std::string>& words, std::size_t at) {
   const std::string& word = words[at++];
   const std::string name = nameIn(word) == "h" ? "help" : nameIn(word);
-  const Option* const option = find(name);
+  const auto [option, former] = named(name);
   if (option == nullptr) refuseUnknown(name);
+  if (former != nullptr)
+    renamed_.push_back("option -" + name + " is now called -" + option->name +
+                       "; the next release does not accept the former name");
   const std::size_t equals = word.find('=');
   if (option->role == Role::flag) {
     if (equals != std::string::npos) throw UsageError("option -" + name + ": takes no value");
@@ -212,11 +121,11 @@ std::size_t CommandLine::readOption(const std::vector<std::string>& words, std::
     return at;
   }
   if (equals != std::string::npos) {
-    take(*option, word.substr(equals + 1));
+    take(*option, inUnitOf(former, word.substr(equals + 1)));
   } else {
     if (at == words.size() || isOption(words[at]))
       throw UsageError("option -" + name + ": needs a value (see " + tool_ + " -h)");
-    take(*option, words[at++]);
+    take(*option, inUnitOf(former, words[at++]));
   }
   const auto continues = [](const std::string& next) {
     return (next.size() < 2 || next.front() != '-') && !isPointFile(next);
@@ -234,7 +143,13 @@ void CommandLine::take(const Option& option, const std::string& value) {
 }
 
 bool CommandLine::isOption(const std::string& word) const {
-  return word.size() > 1 && word.front() == '-' && (nameIn(word) == "h" || declares(nameIn(word)));
+  return word.size() > 1 && word.front() == '-' &&
+         (nameIn(word) == "h" || named(nameIn(word)).first != nullptr);
+}
+
+void CommandLine::printRenamed() const {
+  if (quiet()) return;
+  for (const std::string& text : renamed_) std::cerr << tool_ << ": " << text << std::endl;
 }
 
 void CommandLine::refuseUnknown(const std::string& option) const {
@@ -307,6 +222,14 @@ const Option* CommandLine::find(const std::string& name) const {
   const auto found = std::find_if(options_.begin(), options_.end(),
                                   [&](const Option& option) { return option.name == name; });
   return found == options_.end() ? nullptr : &*found;
+}
+
+std::pair<const Option*, const FormerName*> CommandLine::named(const std::string& name) const {
+  if (const Option* option = find(name)) return {option, nullptr};
+  for (const Option& option : options_)
+    for (const FormerName& former : option.former)
+      if (former.name == name) return {&option, &former};
+  return {nullptr, nullptr};
 }
 
 const Option& CommandLine::declared(const std::string& name) const {

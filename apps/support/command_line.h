@@ -116,8 +116,11 @@ class CommandLine {
   std::vector<std::pair<std::string, std::string>> settings() const;
 
  private:
+  friend class OptionGroup;
   Option& add(const std::string& name, const std::string& help, Role role);
   const Option& declared(const std::string& name) const;
+  /// The option of this name or former name, with the former one; null where there is none.
+  std::pair<const Option*, const FormerName*> named(const std::string& name) const;
   void read(const std::vector<std::string>& words);
   std::size_t readOption(const std::vector<std::string>& words, std::size_t at);
   void take(const Option& option, const std::string& value);
@@ -125,17 +128,39 @@ class CommandLine {
   void checkRelations() const;
   void takeArguments();
   void protect(const CommandFiles& files);
+  void printRenamed() const;
   [[noreturn]] void refuseUnknown(const std::string& option) const;
 
   std::string tool_, purpose_, synopsis_, example_;
   std::deque<Option> options_;
+  std::optional<Group> group_;  ///< of the options that are being declared
   std::vector<Arguments> forms_{{}};
   std::vector<std::pair<std::vector<std::string>, bool>> exclusive_;
   std::vector<std::pair<std::string, std::string>> dependent_;
   std::map<std::string, std::vector<std::string>> values_;  ///< of the options that are given
   std::vector<std::string> arguments_, inputs_;
+  std::vector<std::string> renamed_;  ///< remarks about former names that are used
   std::string output_;
   FileProtection protection_;
+};
+
+/** \brief Options that are declared during its lifetime belong to one part of -h.
+ *
+ * Other options belong to a part by their role: files that are read to the inputs, files and
+ * folders that are written to the output, all others to further options.
+ */
+class OptionGroup {
+ public:
+  OptionGroup(CommandLine& line, Group group) : line_(line), before_(line.group_) {
+    line.group_ = group;
+  }
+  ~OptionGroup() { line_.group_ = before_; }
+  OptionGroup(const OptionGroup&) = delete;
+  OptionGroup& operator=(const OptionGroup&) = delete;
+
+ private:
+  CommandLine& line_;
+  std::optional<Group> before_;
 };
 
 using Step = ConsoleStep;

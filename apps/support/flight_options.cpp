@@ -50,6 +50,7 @@ std::vector<std::filesystem::path> trajectoryInputs(const CommandLine& line) {
 }  // namespace
 
 void addFlightOptions(CommandLine& line, const std::string& use) {
+  const OptionGroup group(line, Group::inputs);
   addTrajectoryOptions(line, use);
   line.addWhole("gps_week",
                 "GPS week of times that are seconds of the week, in place of the one determined "
@@ -62,6 +63,7 @@ void addFlightOptions(CommandLine& line, const std::string& use) {
 }
 
 void addTrajectoryOptions(CommandLine& line, const std::string& use) {
+  const OptionGroup group(line, Group::inputs);
   const std::string help =
       "trajectory: text (.csv, .txt, .pos, ...), SBET (.out, .sbet), TerraScan (.trj), RIEGL "
       "(.pof) or Leica (.sol); several files or a folder are joined in order of time; "
@@ -124,6 +126,7 @@ CalibrationResult usableCalibration(const CommandLine& line) {
 }
 
 void addModelOption(CommandLine& line) {
+  const OptionGroup group(line, Group::estimation);
   line.addChoice(
       "model",
       "rigorous: roll, pitch and heading of the trajectory; quasi_rigorous: its positions only, "
@@ -173,13 +176,14 @@ void checkFlightOptions(const CommandLine& line) {
 
 void addAccuracyOption(CommandLine& line, const std::string& use) {
   line.addInputFile(
-      "accuracy",
-      "accuracies of the trajectory over time, an Applanix smrmsg or RIEGL .poq file: " + use);
+          "trajectory_accuracy",
+          "accuracies of the trajectory over time, an Applanix smrmsg or RIEGL .poq file: " + use)
+      .formerly("accuracy");
 }
 
 std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line) {
-  return line.has("accuracy") ? readAccuracies(line.text("accuracy"))
-                              : std::vector<TrajectoryAccuracy>();
+  return line.has("trajectory_accuracy") ? readAccuracies(line.text("trajectory_accuracy"))
+                                         : std::vector<TrajectoryAccuracy>();
 }
 
 std::shared_ptr<const Trajectory> loadTrajectory(const CommandLine& line,

@@ -51,7 +51,7 @@ void addTrajectoryOptions(CommandLine& line, const std::string& use = {});
 /// The values of -trajectory.
 std::vector<std::filesystem::path> trajectoryFiles(const CommandLine& line);
 
-/// Declares -accuracy; \a use: what the accuracies are for.
+/// Declares -trajectory_accuracy; \a use: what the accuracies are for.
 void addAccuracyOption(CommandLine& line, const std::string& use);
 /// The records of its file; empty without it.
 std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line);

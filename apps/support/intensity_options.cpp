@@ -42,7 +42,10 @@ void addAirOptions(CommandLine& line) {
 }
 
 void addGainOptions(CommandLine& line) {
-  line.addText("gains", "STRIP=FACTOR,…: known gains of strips; intensities are divided by them");
+  const OptionGroup group(line, Group::inputs);
+  line.addText("strip_gains",
+               "STRIP=FACTOR,…: known gains of strips; intensities are divided by them")
+      .formerly("gains");
   line.addText("pulse_rates",
                "STRIP=HZ,…: pulse rates of all strips; the pulse energy is inversely "
                "proportional (constant power)");
@@ -64,14 +67,17 @@ void addSurfaceOptions(CommandLine& line) {
                  surfaces.radius, {0.0, 1000.0, "m"});
   line.addNumber("surface_tolerance", "largest distance of points on a local plane",
                  surfaces.tolerance, {0.001, 10.0, "m"});
-  line.addNumber("divergence", "divergence of the beam", 0.3, {0.0, 10.0, "mrad"});
+  line.addNumber("beam_divergence", "divergence of the beam", 0.3, {0.0, 10.0, "mrad"})
+      .formerly("divergence");
 }
 
 void addOverlapOptions(CommandLine& line) {
   line.addText(
-      "estimate",
-      "terms to estimate from overlaps: a list of range_exponent, incidence_exponent, extinction, "
-      "strip_gains, or all; terms that the overlaps do not determine keep their given value");
+          "estimate",
+          "terms to estimate from overlaps: a list of range_exponent, incidence_exponent, "
+          "extinction, "
+          "strip_gains, or all; terms that the overlaps do not determine keep their given value")
+      .in(Group::estimation);
   line.addNumber("cell", "cell size for the comparison of strips; 0: that of 6 points", 0.0,
                  {0.0, 100.0, "m"});
   line.addInputFile("radiometry", "JSON of an earlier run: its model, gains and constant are used");
@@ -88,13 +94,19 @@ void addOutputOptions(CommandLine& line) {
   line.addOutputFolder("corrected",
                        "folder for the corrected files; all files named are then inputs",
                        copiesOfInputs());
-  line.addNumber("scale", "factor on corrected intensities in the 16-bit field", 1.0, {1e-6, 1e6});
-  line.addFlag("no_original", "do not keep the original intensity as extra bytes");
-  line.addFlag("no_fields", "do not add range, incidence angle and reflectance as extra bytes");
+  line.addNumber("intensity_scale", "factor on corrected intensities in the 16-bit field", 1.0,
+                 {1e-6, 1e6})
+      .formerly("scale")
+      .in(Group::output);
+  line.addFlag("no_original", "do not keep the original intensity as extra bytes")
+      .in(Group::output);
+  line.addFlag("no_fields", "do not add range, incidence angle and reflectance as extra bytes")
+      .in(Group::output);
   line.addFlag("keep_uncovered",
                "leave any number of points without a trajectory unchanged (default: up to 1 % of a "
                "file, which are counted; a file with more is refused)");
-  line.addOutputFile("json", "file for model, uncertainties, counts and statistics", {".json"});
+  line.addOutputFile("output", "file for model, uncertainties, counts and statistics", {".json"})
+      .formerly("json");
   addReportOption(line,
                   "folder for report.html (pictures inside), report.md and tables as CSV on the "
                   "effect of the correction",
@@ -137,10 +149,10 @@ IntensitySettings intensitySettings(const CommandLine& line, double extinction_p
   if (line.has("no_incidence")) model.incidence_exponent = 0.0;
   settings.surfaces.radius = line.number("surface_radius");
   settings.surfaces.tolerance = line.number("surface_tolerance");
-  settings.footprint_mrad = line.number("divergence");
+  settings.footprint_mrad = line.number("beam_divergence");
   settings.cell = line.number("cell");
   setEstimates(line, settings.overlaps);
-  settings.gains = valuesByStrip(line, "gains", 1e-6, 1e6);
+  settings.gains = valuesByStrip(line, "strip_gains", 1e-6, 1e6);
   settings.pulse_rates = valuesByStrip(line, "pulse_rates", 1.0, 1e9);
   if (line.has("agc_field")) {
     settings.gain_control = line.text("agc_field");
@@ -149,7 +161,7 @@ IntensitySettings intensitySettings(const CommandLine& line, double extinction_p
   if (line.has("saturation")) settings.saturation = line.number("saturation");
   settings.keep_uncovered = line.has("keep_uncovered");
   settings.strips = stripChoice(line);
-  settings.statistics = line.has("json") || line.has("report");
+  settings.statistics = line.has("output") || line.has("report");
   settings.find_surfaces = model.incidence_exponent != 0.0 || settings.statistics ||
                            !line.has("no_fields") || line.has("estimate") || line.has("targets");
   checkFlightOptions(line);
@@ -161,7 +173,7 @@ IntensitySettings intensitySettings(const CommandLine& line, double extinction_p
 
 IntensityOutput intensityOutput(const CommandLine& line) {
   IntensityOutput output;
-  output.scale = line.number("scale");
+  output.scale = line.number("intensity_scale");
   output.keep_original = !line.has("no_original");
   output.extra_fields = !line.has("no_fields");
   return output;

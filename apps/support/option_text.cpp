@@ -3,6 +3,7 @@
 #include "option_text.h"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include <pcl_als/common/number_text.h>
@@ -83,6 +84,28 @@ void wrap(const std::string& text, std::size_t column, std::string& out) {
   out += '\n';
 }
 
+/// A name for scripts and a title for readers, in the order of Group.
+struct GroupNames {
+  const char *name, *title;
+};
+constexpr GroupNames kGroups[] = {{"inputs", "Inputs"},
+                                  {"strips", "Strips"},
+                                  {"estimation", "What is estimated"},
+                                  {"priors", "Priors and assumed errors"},
+                                  {"output", "Output"},
+                                  {"others", "Further options"}};
+
+std::string helpOf(const Option& option) {
+  std::string text = std::string(kOptionColumn, ' ') + "--" + option.name;
+  if (option.role != Role::flag) text += ' ' + valueName(option);
+  if (text.size() + 2 <= kTextColumn)
+    text.resize(kTextColumn, ' ');
+  else
+    text += '\n' + std::string(kTextColumn, ' ');
+  wrap(option.help + consequences(option), kTextColumn, text);
+  return text;
+}
+
 const char* nameOf(Role role) {
   constexpr const char* kNames[] = {"flag",   "text",  "number", "whole",
                                     "choice", "input", "output", "folder"};
@@ -98,27 +121,25 @@ std::string rangeText(const Option& option) {
 
 std::string optionHelp(const std::deque<Option>& options) {
   std::string text;
-  for (const Option& option : options) {
-    std::string left = std::string(kOptionColumn, ' ') + "--" + option.name;
-    if (option.role != Role::flag) left += ' ' + valueName(option);
-    if (left.size() + 2 <= kTextColumn)
-      left.resize(kTextColumn, ' ');
-    else
-      left += '\n' + std::string(kTextColumn, ' ');
-    text += left;
-    wrap(option.help + consequences(option), kTextColumn, text);
+  for (std::size_t part = 0; part < std::size(kGroups); ++part) {
+    std::string needed, others;
+    for (const Option& option : options)
+      if (option.group == static_cast<Group>(part))
+        (option.is_needed ? needed : others) += helpOf(option);
+    if (needed.empty() && others.empty()) continue;
+    text += '\n' + std::string(kGroups[part].title) + ":\n" + needed + others;
   }
   return text;
 }
 
 std::string optionTable(const CommandLine& line) {
   std::ostringstream out;
-  out << "name\trole\tneed\tdefault\tunit\tleast\tgreatest\twords\n";
+  out << "name\trole\tneed\tdefault\tunit\tleast\tgreatest\twords\tgroup\n";
   for (const Arguments& form : line.forms()) {
     const std::string need = form.with.empty() ? "" : "with -" + form.with;
-    out << "IN\tinput\t" << need << "\t\t\t" << form.least << '\t' << form.most << "\t\n";
+    out << "IN\tinput\t" << need << "\t\t\t" << form.least << '\t' << form.most << "\t\tinputs\n";
     if (!form.out.empty())
-      out << "OUT\toutput\t" << need << "\t\t\t1\t1\t" << joinedBy(form.out, ",") << '\n';
+      out << "OUT\toutput\t" << need << "\t\t\t1\t1\t" << joinedBy(form.out, ",") << "\toutput\n";
   }
   for (const Option& option : line.options()) {
     const bool number = option.role == Role::number || option.role == Role::whole;
@@ -131,7 +152,8 @@ std::string optionTable(const CommandLine& line) {
       const auto files = option.files(line);
       if (files) words.insert(words.end(), files->begin(), files->end());
     }
-    out << joinedBy(words, ",") << '\n';
+    out << joinedBy(words, ",") << '\t' << kGroups[static_cast<std::size_t>(option.group)].name
+        << '\n';
   }
   return out.str();
 }

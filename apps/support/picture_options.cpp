@@ -10,7 +10,7 @@ const std::vector<std::string>& pictureEndings() {
 }
 
 void addSizeOption(CommandLine& line) {
-  line.addText("size", "size of the picture, pixels", "1600x1000");
+  line.addText("size", "size of the picture, pixels", "1600x1000").in(Group::output);
 }
 
 PictureSize sizeOf(const CommandLine& line) {

@@ -43,6 +43,7 @@ void setChanges(std::string_view text, SystemVector& change_std) {
 }
 
 void addPriorOptions(CommandLine& line) {
+  const OptionGroup group(line, Group::priors);
   line.addInputFile("prior",
                     "what is known of the biases: boresight_roll=0:5,… (value and standard "
                     "deviation, m, arcsec), or the calibration.json of an earlier flight with the "
@@ -70,7 +71,7 @@ GivenPrior::GivenPrior(const CommandLine& line, CalibrationSettings& settings) {
   if (!file_->earlier.systems.empty() && settings.systems.empty())
     throw InputError(file_->name +
                      ": has several systems, and this block is calibrated as one; "
-                     "divide its strips with -system, the first one as the first of the prior");
+                     "divide its strips with -systems, the first one as the first of the prior");
   if (line.has("prior_change"))
     line.parsed("prior_change", [&](const std::string& changes) {
       setChanges(changes, file_->change_std);

@@ -163,9 +163,10 @@ int runShared(int argc, const char* const* argv, CommandLine (*options)(),
 
 void addResumeOption(CommandLine& line) {
   line.addFlag(
-      "resume",
-      "record complete outputs, and keep those that an interrupted run of the same command "
-      "recorded");
+          "resume",
+          "record complete outputs, and keep those that an interrupted run of the same command "
+          "recorded")
+      .in(Group::output);
 }
 
 BatchOptions batchOptions(const CommandLine& line) {
@@ -173,7 +174,7 @@ BatchOptions batchOptions(const CommandLine& line) {
   batch.resume = line.has("resume");
   batch.processes = processes();
   batch.settings = settingsText(line.toolAndVersion(), line.settings(),
-                                {"threads", "quiet", "resume", "report", "json"});
+                                {"threads", "quiet", "resume", "report", "output"});
   return batch;
 }
 

@@ -9,7 +9,8 @@ namespace pcl_als::app {
 void addReportOption(CommandLine& line, const std::string& help, std::vector<std::string> files) {
   files.insert(files.begin(), {"report.html", "report.md"});
   line.addOutputFolder("report", help, always(std::move(files)));
-  line.addText("title", "title of the report, e.g. the name of the mission (default: by content)");
+  line.addText("title", "title of the report, e.g. the name of the mission (default: by content)")
+      .in(Group::output);
   line.makeDependent("title", "report");
 }
 

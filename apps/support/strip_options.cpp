@@ -19,6 +19,7 @@ std::vector<std::string> namesOf(const CommandLine& line, const std::string& opt
 }  // namespace
 
 void addStripOptions(CommandLine& line, bool split) {
+  const OptionGroup group(line, Group::strips);
   std::string names = "use these strips only, e.g. 1,2 (names as pcl_als_info lists them";
   if (split)
     names += line.declares("trajectory") ? ", with -split and -trajectory as here"
@@ -37,7 +38,8 @@ void addStripOptions(CommandLine& line, bool split) {
 void addChannelOption(CommandLine& line) {
   line.addText("channels",
                "the channels of the scanner are strips of their own (3.ch0, 3.ch1, ...): "
-               "scanner_channel (LAS 1.4), user_data or an extra-bytes field");
+               "scanner_channel (LAS 1.4), user_data or an extra-bytes field")
+      .in(Group::strips);
 }
 
 bool choosesStrips(const CommandLine& line) {

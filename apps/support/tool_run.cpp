@@ -18,7 +18,7 @@ namespace pcl_als::app {
 void addUnitsOption(CommandLine& line, const std::string& of, const std::string& what) {
   const std::string help =
       "unit of the coordinates in " + what + ": metre, international foot or US survey foot";
-  line.addChoice(of + "_units", help, {"m", "ft", "us_ft"}, "m");
+  line.addChoice(of + "_units", help, {"m", "ft", "us_ft"}, "m").in(Group::inputs);
 }
 
 LengthUnit unitOption(const CommandLine& line, const std::string& of) {

@@ -40,10 +40,12 @@ std::vector<std::filesystem::path> pointFiles(const CommandLine& line, const std
   return {files.begin(), files.end()};
 }
 
-void addWindowOptions(CommandLine& line) {
-  line.addText("bounds",
-               "XMIN,YMIN,XMAX,YMAX, m: use the points in this rectangle only, with its edges; "
-               "of COPC files only this part is read");
+Option& addWindowOptions(CommandLine& line) {
+  const OptionGroup group(line, Group::inputs);
+  Option& bounds = line.addText(
+      "bounds",
+      "XMIN,YMIN,XMAX,YMAX, m: use the points in this rectangle only, with its edges; of COPC "
+      "files only this part is read");
   line.addNumber("resolution",
                  "of COPC files: read the octree up to the level whose points are so far apart, in "
                  "place of all points",
@@ -51,6 +53,7 @@ void addWindowOptions(CommandLine& line) {
   line.addFlag(
       "keep_readable",
       "read what is intact of damaged or truncated LAS and LAZ files, and report how much");
+  return bounds;
 }
 
 PointWindow windowOf(const CommandLine& line) {

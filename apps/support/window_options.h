@@ -26,9 +26,9 @@ Eigen::AlignedBox2d rectangleOf(const CommandLine& line, const std::string& opti
 /// The point files that an option names: a folder with them, or files separated by commas.
 std::vector<std::filesystem::path> pointFiles(const CommandLine& line, const std::string& option);
 
-/// Adds -bounds, -resolution and -keep_readable, which mean the same in every tool that reads parts
-/// of files.
-void addWindowOptions(CommandLine& line);
+/// Adds -bounds, which it returns, -resolution and -keep_readable. They mean the same in every tool
+/// that reads parts of files.
+Option& addWindowOptions(CommandLine& line);
 /// Their values.
 PointWindow windowOf(const CommandLine& line);
 

@@ -42,6 +42,11 @@ NR == 1 {
   part = "text"
   next
 }
+part == "options" && /^[A-Z].*:$/ {
+  finish_option()
+  print ".SS " escaped(substr($0, 1, length($0) - 1))
+  next
+}
 part == "options" && /^  -/ {
   finish_option()
   option = $0

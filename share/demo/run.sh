@@ -76,10 +76,10 @@ pictures=$out/pictures
 mkdir -p -- "$pictures"
 if outdated "$pictures/profile1.png" "$bin/pcl_als_profile" "$corrected/strip1.las"; then
   "$bin/pcl_als_view" "${strips[@]}" -output "$pictures/elevation.png" -shade hill | grep '^Drawing'
-  "$bin/pcl_als_view" "$block"/strip[12].las -color difference -reference 1 \
-    -output "$pictures/difference_before.png" -range=-0.5:0.5 | grep '^Drawing'
-  "$bin/pcl_als_view" "$corrected"/strip[12].las -color difference -reference 1 \
-    -output "$pictures/difference_after.png" -range=-0.5:0.5 | grep '^Drawing'
+  "$bin/pcl_als_view" "$block"/strip[12].las -color difference -reference_strip 1 \
+    -output "$pictures/difference_before.png" -color_range=-0.5:0.5 | grep '^Drawing'
+  "$bin/pcl_als_view" "$corrected"/strip[12].las -color difference -reference_strip 1 \
+    -output "$pictures/difference_after.png" -color_range=-0.5:0.5 | grep '^Drawing'
   "$bin/pcl_als_profile" "${strips[@]}" -after "$corrected" -auto 3 -output "$pictures" | grep '^Drawing'
 else
   echo "$pictures is up to date"

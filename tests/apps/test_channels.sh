@@ -32,7 +32,7 @@ grep -q '"3.ch1"' c.json || failed "c.json has no strip 3.ch1: status $status"
 
 # Two systems: the second channel has its roll of 120" (four standard deviations; 1" where the noise is that of ranges),
 # and the corrected strips of both channels fit each other. A calibration of one system leaves the difference.
-expect 0 converged calibrate "${strips[@]}" "${flight[@]}" -channels scanner_channel -system a=3-5:0 b=3-5:1 \
+expect 0 converged calibrate "${strips[@]}" "${flight[@]}" -channels scanner_channel -systems a=3-5:0 b=3-5:1 \
   -own boresight -output systems.json -corrected corrected
 read -r first second < <(awk '/"boresight_roll"/ { getline; gsub(/[^-0-9.e]/, "", $2); printf "%s ", $2 }' systems.json |
   awk '{ print $2, $3 }')
@@ -55,8 +55,8 @@ check "misfit of channels, $(rms before.json) before, $(rms after.json) after" \
 expect 2 "belong to none of the systems" apply cross/strip1.las none.las "${flight[@]}" -calibration systems.json
 absent none.las
 expect 1 "there is no strip 9.ch1" calibrate "${strips[@]}" "${flight[@]}" -channels scanner_channel \
-  -system a=3-5:0 b=9:1 -output no.json
-expect 1 "NAME=STRIPS" calibrate "${strips[@]}" "${flight[@]}" -system a -output no.json
+  -systems a=3-5:0 b=9:1 -output no.json
+expect 1 "NAME=STRIPS" calibrate "${strips[@]}" "${flight[@]}" -systems a -output no.json
 absent no.json
 
 # More than four channels are in the user data; the scanner channel is 0 for all of them.

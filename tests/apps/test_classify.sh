@@ -28,7 +28,7 @@ done
 # The block has intensities of two flying heights; its roads are hard to tell from soil.
 expect 0 'Overall accuracy' classify "${strips[@]}" -training "$training" -checkpoints "$checkpoints" \
   -cell 2 -output map.tif -grids grids.tif -posterior posterior.tif -accuracy first.json \
-  -checked first.csv -save_model model.json -map map.png -points points
+  -checked first.csv -save_class_model model.json -map map.png -classified points
 for file in map.tif grids.tif posterior.tif first.json first.csv model.json map.png points/strip1.las; do
   check "$file is there" test -s "$file"
 done
@@ -37,12 +37,12 @@ expect 0 'points' info points/strip1.las
 check "points keep their size" test "$(stat -c %s points/strip1.las)" = "$(stat -c %s "$block/strip1.las")"
 
 # The saved statistics give the same map; so do other tiles and one thread.
-expect 0 'Overall accuracy' classify "${strips[@]}" -model model.json -checkpoints "$checkpoints" \
-  -cell 2 -output again.tif -checked again.csv -threads 1 -points again
+expect 0 'Overall accuracy' classify "${strips[@]}" -class_model model.json -checkpoints "$checkpoints" \
+  -cell 2 -output again.tif -checked again.csv -threads 1 -classified again
 check "the model gives the same map" cmp map.tif again.tif
 check "and the same points" cmp points/strip1.las again/strip1.las
 check "points are classified" cmp_differs points/strip1.las "$block/strip1.las"
-expect 0 'tree' classify "${strips[@]}" -model model.json -cell 2 -output tiles.tif -tile 100 -checkpoints "$checkpoints" -checked tiles.csv
+expect 0 'tree' classify "${strips[@]}" -class_model model.json -cell 2 -output tiles.tif -tile 100 -checkpoints "$checkpoints" -checked tiles.csv
 check "tiles give the same check points" cmp first.csv tiles.csv
 
 # Cell for cell what a computation of its own makes of the same rasters, and the same posteriors.
@@ -53,7 +53,7 @@ check "the map equals a direct computation" "$bin/direct_maxlik" direct_grids.ti
 
 # Points by parts of the raster: noise keeps its class, every other byte stays.
 check "points of noise" "$bin/las_damage" "$block/strip1.las" noise.las class 7
-expect 0 'points' classify noise.las "${strips[@]:1}" -model model.json -cell 2 -output noise.tif -points noisy
+expect 0 'points' classify noise.las "${strips[@]:1}" -class_model model.json -cell 2 -output noise.tif -classified noisy
 check "noise stays noise" cmp noise.las noisy/noise.las
 
 # With texture it differs, and the two are compared on the same points.
@@ -77,7 +77,7 @@ awk -F, 'BEGIN { printf "{\"type\":\"FeatureCollection\",\"features\":[" }
     printf "%s{\"type\":\"Feature\",\"properties\":{\"class\":\"%s\"},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f]]]}}", (NR > 2 ? "," : ""), $3, w, s, e, s, e, n, w, n, w, s }
   END { print "]}" }' "$training" >areas.geojson
 expect 0 'Overall accuracy' classify "${strips[@]}" -training areas.geojson -checkpoints "$checkpoints" \
-  -cell 2 -output areas.tif -accuracy areas.json -save_model areas_model.json
+  -cell 2 -output areas.tif -accuracy areas.json -save_class_model areas_model.json
 expect_overall areas.json 0.4 0.95
 check "areas give more samples than points" awk '/"samples"/ { gsub(/[^0-9]/, ""); n += $0 } END { exit !(n > 1000) }' areas_model.json
 
@@ -93,20 +93,20 @@ awk -F, '$3 != "grass"' "$training" >no_grass.csv
 expect 0 'class grass: 150 check sites but no training; counted as wrong' classify "${strips[@]}" \
   -training no_grass.csv -checkpoints "$checkpoints" -cell 2 -output no.tif -map no.png -beside map.tif
 awk -F, '$3 != "grass"' "$checkpoints" >no_grass_checks.csv
-expect 0 'note: no check point is grass' classify "${strips[@]}" -model model.json -checkpoints no_grass_checks.csv \
+expect 0 'note: no check point is grass' classify "${strips[@]}" -class_model model.json -checkpoints no_grass_checks.csv \
   -cell 2 -output no.tif
 expect 0 '(singular)' classify "${strips[@]}" -training "$training" -cell 2 -output singular.tif \
-  -bands height,multiple_returns -save_model singular.json
+  -bands height,multiple_returns -save_class_model singular.json
 check "the model keeps the remark" grep -q 'regularised with .*(singular)' singular.json
 
 # Cells without points: the block's corners, 200 m beyond its edges.
-wide=(-extent 699000,5659000,701000,5661000 -cell 2)
+wide=(-bounds 699000,5659000,701000,5661000 -cell 2)
 printf 'x,y,class\n699001,5659001,tree\n700999,5660999,soil\n' >corners.csv
 (cat "$checkpoints"; sed 1d corners.csv) >some_empty.csv
-expect 0 ' check points on cells without a class, counted as wrong' classify "${strips[@]}" -model model.json \
+expect 0 ' check points on cells without a class, counted as wrong' classify "${strips[@]}" -class_model model.json \
   -checkpoints some_empty.csv "${wide[@]}" -output empty.tif -checked empty.csv
 check "empty cells have no class in the list" grep -q '^699001.000,5659001.000,tree,$' empty.csv
-expect 0 'Overall accuracy 0.0 %' classify "${strips[@]}" -model model.json -checkpoints corners.csv "${wide[@]}" \
+expect 0 'Overall accuracy 0.0 %' classify "${strips[@]}" -class_model model.json -checkpoints corners.csv "${wide[@]}" \
   -output empty.tif -accuracy empty.json
 (cat "$training"; sed 1d corners.csv) >training_empty.csv
 expect 0 'training sites on cells without values' classify "${strips[@]}" -training training_empty.csv "${wide[@]}" \
@@ -121,18 +121,18 @@ expect 0 '2 check sites outside of the rasters' classify "${strips[@]}" -trainin
 
 # Wrong usage and unusable files.
 expect 1 'options -output and -grids is needed' classify "${strips[@]}" -training "$training"
-expect 1 '-training and -model' classify "${strips[@]}" -output bad.tif
+expect 1 '-training and -class_model' classify "${strips[@]}" -output bad.tif
 expect 1 "no band 'colour'" classify "${strips[@]}" -training "$training" -output bad.tif -bands colour
 expect 1 'option -cell' classify "${strips[@]}" -training "$training" -output bad.tif -cell 0
-expect 1 'option -extent' classify "${strips[@]}" -training "$training" -output bad.tif -extent 1,2,3
+expect 1 'option -bounds' classify "${strips[@]}" -training "$training" -output bad.tif -bounds 1,2,3
 expect 1 'no such class' classify "${strips[@]}" -training "$training" -output bad.tif -priors water=0.5 -cell 5
 expect 1 'none of tin, idw' classify "${strips[@]}" -training "$training" -output bad.tif -interpolation spline
 expect 1 'is also another output' classify "${strips[@]}" -training "$training" -output bad.tif -grids bad.tif
-expect 1 '-points needs -output' classify "${strips[@]}" -grids bad.tif -points bad
-expect 1 'strip1.las is also an input' classify "${strips[@]}" -training "$training" -output bad.tif -points "$block"
+expect 1 '-classified needs -output' classify "${strips[@]}" -grids bad.tif -classified bad
+expect 1 'strip1.las is also an input' classify "${strips[@]}" -training "$training" -output bad.tif -classified "$block"
 expect 1 'training.csv is also an input' classify "${strips[@]}" -training "$training" -output bad.tif -checkpoints "$checkpoints" -accuracy "$training"
 mkdir -p twin && cp "$block/strip1.las" twin/
-expect 1 'strip1.las is also another output' classify "$block/strip1.las" twin/strip1.las -training "$training" -output bad.tif -points bad_points
+expect 1 'strip1.las is also another output' classify "$block/strip1.las" twin/strip1.las -training "$training" -output bad.tif -classified bad_points
 expect 2 'no names of classes' classify "${strips[@]}" -training "$training" -output bad.tif -map bad.png -beside grids.tif
 # A header that tells of 300000 x 300000 cells (tags 256 and 257, the first of the directory).
 cp map.tif lie.tif
@@ -146,15 +146,15 @@ expect 2 'none.tif: *there is no such file' classify "${strips[@]}" -training "$
 printf 'x,y,class\n1,2,unclassified\n' >reserved.csv
 expect 2 "named 'unclassified'" classify "${strips[@]}" -training reserved.csv -output bad.tif
 sed 's/"samples": [0-9]*/"samples": -3/' model.json >negative.json
-expect 2 'its samples are no count' classify "${strips[@]}" -model negative.json -output bad.tif
+expect 2 'its samples are no count' classify "${strips[@]}" -class_model negative.json -output bad.tif
 sed 's/"prior": [0-9.]*/"prior": 0.9/' model.json >priors.json
-expect 2 'priors.json: the priors of all classes together must be 1' classify "${strips[@]}" -model priors.json -output bad.tif
+expect 2 'priors.json: the priors of all classes together must be 1' classify "${strips[@]}" -class_model priors.json -output bad.tif
 expect 2 'no such file' classify "${strips[@]}" -training none.csv -output bad.tif
-expect 2 'no file of class statistics' classify "${strips[@]}" -model first.json -output bad.tif
+expect 2 'no file of class statistics' classify "${strips[@]}" -class_model first.json -output bad.tif
 expect 2 'folder does not exist' classify "${strips[@]}" -training "$training" -output none/bad.tif -cell 5
 expect 2 'folder does not exist' classify "${strips[@]}" -training "$training" -output bad.tif -map none/bad.png
 expect 1 'option -reject' classify "${strips[@]}" -training "$training" -output bad.tif -reject 0.9
-expect 2 'no point lies in the rasters' classify "${strips[@]}" -training "$training" -output bad.tif -extent 0,0,100,100
+expect 2 'no point lies in the rasters' classify "${strips[@]}" -training "$training" -output bad.tif -bounds 0,0,100,100
 expect 1 "option -crs: 'EPSG:1' is not known to PROJ" classify "${strips[@]}" -training "$training" -output bad.tif -crs EPSG:1 -cell 5
 expect 1 'option -output is needed' accuracy table6.csv
 expect 1 'table6.csv is also an input' accuracy table6.csv -output table6.csv

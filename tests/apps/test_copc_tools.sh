@@ -16,7 +16,7 @@ expect 0 "point format 6" info plain/1.las
 check "no octree is left" sh -c "! '$bin/pcl_als_info' plain/1.las | grep -qi copc"
 
 # A window in the middle of the block, where strips overlap.
-read -r x y < <("$bin/pcl_als_info" plain/*.las -json all.json | awk '/^  extent/ {
+read -r x y < <("$bin/pcl_als_info" plain/*.las -output all.json | awk '/^  extent/ {
   gsub(",", ""); if (!n++ || $3 > w) w = $3; if (n == 1 || $5 < e) e = $5
   if (n == 1 || $7 > s) s = $7; if (n == 1 || $9 < t) t = $9 }
   END { printf "%.0f %.0f\n", (w + e) / 2, (s + t) / 2 }')
@@ -31,7 +31,7 @@ same() {  # WHAT FILE FILE: equal except for the names, format and VLRs of the p
   cmp "$2.names" "$3.names" || failed "$1"
 }
 for kind in copc plain; do
-  expect 0 "a part of the files was read" info $kind/* -bounds "$bounds" -json $kind.info.json
+  expect 0 "a part of the files was read" info $kind/* -bounds "$bounds" -output $kind.info.json
   expect 0 "" view $kind/* -bounds "$bounds" -output $kind.png -bare
   expect 0 "" profile $kind/* -bounds "$bounds" -from "$((x - 40)),$y" -to "$((x + 40)),$y" \
     -output $kind.profile.png -title t

@@ -59,11 +59,11 @@ both "are brought to metres" calibrate strip1.las strip2.las strip3.las -traject
 same calibration.json 1e-6
 records corrected/strip2.las 12
 
-both "are brought to metres" apply strip1.las zero.las -trajectory trajectory.csv -biases range_bias=0
+both "are brought to metres" apply strip1.las zero.las -trajectory trajectory.csv -bias range_bias=0
 check "zero biases change no byte" cmp feet/strip1.las feet/zero.las
-both "" apply strip1.las out.las -trajectory trajectory.csv -biases boresight_roll=90,range_bias=0.1
+both "" apply strip1.las out.las -trajectory trajectory.csv -bias boresight_roll=90,range_bias=0.1
 records out.las 12
-both "" apply out.las back.las -trajectory trajectory.csv -biases boresight_roll=90,range_bias=0.1 -invert
+both "" apply out.las back.las -trajectory trajectory.csv -bias boresight_roll=90,range_bias=0.1 -invert
 check "the output states its unit" test "$(head -c 227 feet/out.las | tail -c 96 | head -c 48 | od -An -tx1)" = \
   "$(head -c 227 feet/strip1.las | tail -c 96 | head -c 48 | od -An -tx1)"
 
@@ -74,7 +74,7 @@ both "are brought to metres" intensity strip1.las intensity.las -trajectory traj
 records intensity.las 100
 
 both "are brought to metres" classify strip1.las strip2.las strip3.las -training training.csv \
-  -checkpoints checkpoints.csv -cell 2 -output cover.tif -accuracy accuracy.json -points classes
+  -checkpoints checkpoints.csv -cell 2 -output cover.tif -accuracy accuracy.json -classified classes
 same accuracy.json 0.01
 records classes/strip1.las 100
 if [[ -x $bin/pcl_als_view ]]; then
@@ -99,7 +99,7 @@ expect 1 "-control_units: 'feet' is none of" check strip1.las strip2.las -contro
 cd .. && cp metre/quality.json metre/quality_ft.json
 same quality_ft.json 1e-6
 expect 1 "option -crs: 'EPSG:999999' is not known to PROJ" apply metre/strip1.las x.las \
-  -trajectory metre/trajectory.csv -biases range_bias=0 -crs EPSG:999999
+  -trajectory metre/trajectory.csv -bias range_bias=0 -crs EPSG:999999
 expect 1 "option -crs: 'EPSG:4326'" simulate -output none -crs EPSG:4326
 expect 1 "option -crs: 'nonsense'" classify metre/strip1.las -training metre/training.csv -cell 2 -output x.tif -crs nonsense
 absent x.las x.tif x.json none

@@ -52,7 +52,7 @@ absent no.json
 
 # The same range bias with a selection of pairs, with the channel of the scanner as a strip, and for two systems; both
 # kinds are unaffected by these options. Tolerance as above.
-together=(-select 5 / -channels scanner_channel / -system a=1,2 b=4 -own range_bias)
+together=(-select 5 / -channels scanner_channel / -systems a=1,2 b=4 -own range_bias)
 options=()
 for word in "${together[@]}" /; do
   [[ $word == / ]] || { options+=("$word"); continue; }
@@ -65,7 +65,7 @@ for word in "${together[@]}" /; do
 done
 
 # Targets: the tool lists their places in plan, and refuses diameters that cannot be.
-run simulate -output targets -preset small -scale 0.6 -density 2 -noise range -targets 6 -target_diameter 3
+run simulate -output targets -preset small -scale 0.6 -density 2 -noise range -target_count 6 -target_diameter 3
 [[ $status == 0 ]] || failed "simulate targets"
 check "truth.json has the targets" grep -q '"diameter_m": 3.0' targets/truth.json
 awk -F, 'NR == 1 || $5 != ""' targets/control.csv >targets_only.csv

@@ -47,7 +47,7 @@ expect 1 "" icpatch "$a" -output x.json
 expect 1 "-pair" icpatch "$a" "$b" -pair 1 -output x.json
 expect 1 "-pair" icpatch "$a" "$b" -pair 1:x -output x.json
 expect 1 "-transformed" icpatch "$a" "$b" -pair 1:2 -output x.json -transformed x.las
-expect 1 "search_distance" icpatch "$a" "$b" -output x.json -search_distance -1
+expect 1 "max_distance" icpatch "$a" "$b" -output x.json -max_distance -1
 expect 1 "one kind" icpatch "$a" "$b" -output x.json -transformed x.pcd
 expect 1 "is also an input" icpatch "$a" "$b" -output x.json -transformed "$a"
 expect 1 "unknown" icpatch "$a" "$b" -output x.json -unknown 3

@@ -21,7 +21,7 @@ near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; exit !(a != "" &&
 # Overlap-driven: gains against their geometric mean 0.99958, within 4 of their standard deviations.
 expect 0 'strip_gains' intensity -h
 expect 0 'Differences of strips' intensity block/strip*.las -corrected out "${flight[@]}" "${air[@]}" \
-  -estimate strip_gains,incidence_exponent -report report -json result.json
+  -estimate strip_gains,incidence_exponent -report report -output result.json
 strip=0
 for gain in 1.2 0.9 0.8 1.1 1.05; do
   found=$(value result.json "strip_gains $strip value") std=$(value result.json "strip_gains $strip std")
@@ -52,7 +52,7 @@ expect 2 'no result of pcl_als_intensity' intensity block/strip3.las x.las "${fl
 middle=$(awk -F, 'NR == 5 { print $1 "," $2 }' block/checkpoints.csv)
 printf 'x,y,reflectance,id\n%s,0.3,tarp\n' "$middle" >targets.csv
 expect 0 'a single target' intensity block/strip*.las -corrected out2 "${flight[@]}" "${air[@]}" -targets targets.csv \
-  -target_radius 3 -json targets.json
+  -target_radius 3 -output targets.json
 check "the constant is written" awk "BEGIN { exit !($(value targets.json 'reflectance constant') > 1000) }"
 run intensity block/strip1.las far.las "${flight[@]}" -targets <(printf 'x,y,reflectance\n0,0,0.5\n')
 said=$(<err.txt)
@@ -71,17 +71,17 @@ expect 2 "line 2, column 'reflectance'" intensity block/strip1.las x.las "${flig
 expect 0 'atmosphere: left out' intensity block/strip1.las plain.las "${flight[@]}" -no_atmosphere -no_range -no_incidence \
   -no_original -no_fields
 check "without terms nothing changes" cmp plain.las block/strip1.las
-expect 3 "beyond 65535" intensity block/strip3.las x.las "${flight[@]}" -scale 1000
-expect 3 "under 0.5" intensity block/strip3.las x.las "${flight[@]}" -scale 0.0001
+expect 3 "beyond 65535" intensity block/strip3.las x.las "${flight[@]}" -intensity_scale 1000
+expect 3 "under 0.5" intensity block/strip3.las x.las "${flight[@]}" -intensity_scale 0.0001
 expect 1 'there is no strip 9' intensity block/strip3.las x.las "${flight[@]}" -pulse_rates 3=50000,9=50000
-expect 0 '' intensity block/strip3.las x.las "${flight[@]}" -gains 3=0.8 -attenuation 0.5
-expect 1 'no strip 9' intensity block/strip3.las x.las "${flight[@]}" -gains 9=0.8
+expect 0 '' intensity block/strip3.las x.las "${flight[@]}" -strip_gains 3=0.8 -attenuation 0.5
+expect 1 'no strip 9' intensity block/strip3.las x.las "${flight[@]}" -strip_gains 9=0.8
 rm -f x.las
 
 # 8-bit data: 255 is saturated; zeros stay zero.
 "$bin/pcl_als_simulate" -output small -preset small -scale 0.2 -density 0.3 -gain 100 -quiet || failed "simulate 8 bit"
 expect 0 'saturated' intensity small/strip3.las eight.las -trajectory small/trajectory.csv -saturation 150
-expect 0 '' intensity small/strip3.las eight.las -trajectory small/trajectory.csv -scale 100
+expect 0 '' intensity small/strip3.las eight.las -trajectory small/trajectory.csv -intensity_scale 100
 
 # PCD: one point 500 m below the sensor: 400 (500/1000)^2 = 100; its fields behind the others. No surface: NaN.
 printf 'time,x,y,z\n0,0,0,500\n5,250,0,500\n10,500,0,500\n' >line.csv

@@ -50,10 +50,10 @@ poke values.las 2 12 '\xff\x00'
 expect 0 'of intensity 0: 1 points; saturated (65535 and more): 1,' intensity values.las x.las "${flight[@]}"
 check "zero stays zero" test "$(intensity_of x.las 0)" = 0
 check "the original is kept" test "$(od -An -tu2 -j"$(at x.las 1 34)" -N2 x.las | tr -d ' ')" = 65535
-expect 0 'beyond 65535 after correction: 1 points' intensity values.las x.las "${flight[@]}" "${nothing[@]}" -scale 2
+expect 0 'beyond 65535 after correction: 1 points' intensity values.las x.las "${flight[@]}" "${nothing[@]}" -intensity_scale 2
 check "beyond 65535" test "$(intensity_of x.las 1)" = 65535
 check "scale" test "$(intensity_of x.las 2)" = 510
-expect 3 '2 908 of 2 908 intensities are under 0.5 after correction' intensity values.las dark.las "${flight[@]}" "${nothing[@]}" -scale 1e-6
+expect 3 '2 908 of 2 908 intensities are under 0.5 after correction' intensity values.las dark.las "${flight[@]}" "${nothing[@]}" -intensity_scale 1e-6
 expect 2 'all intensities are zero' intensity dark.las x.las "${flight[@]}"
 
 # 8-bit data: none is beyond 255, which is saturated then.
@@ -100,8 +100,8 @@ compare() {  # WHAT OPTION…: both ways
   check "$what: one thread as all" cmp threads.las columns.las
 }
 compare 'all terms'
-compare 'no original' -no_original -scale 3
-compare 'another exponent' -range_exponent 3.3 -attenuation 2 -gains 1=0.7
+compare 'no original' -no_original -intensity_scale 3
+compare 'another exponent' -range_exponent 3.3 -attenuation 2 -strip_gains 1=0.7
 compare 'no range' -no_range -visibility 1
 
 absent y.las

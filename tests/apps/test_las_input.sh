@@ -8,7 +8,7 @@ trajectory=$block/trajectory.csv
 
 # refused FILE TEXT: by every tool that reads points.
 refused() {
-  expect 2 "$1*$2" apply "$1" x.las -trajectory "$trajectory" -biases range_bias=0.1
+  expect 2 "$1*$2" apply "$1" x.las -trajectory "$trajectory" -bias range_bias=0.1
   absent x.las
   expect 2 "$1*$2" calibrate "$1" "$block/strip2.las" -trajectory "$trajectory" -output x.json
   absent x.json
@@ -63,7 +63,7 @@ for case in "zero_times zero_times" "no_time_format set point_format 0 set versi
   read -ra words <<<"$case"
   check "las_damage" "$damage" "$block/strip1.las" "${words[0]}.las" "${words[@]:1}"
 done
-expect 2 "zero_times.las*time" apply zero_times.las x.las -trajectory "$trajectory" -biases range_bias=0.1
+expect 2 "zero_times.las*time" apply zero_times.las x.las -trajectory "$trajectory" -bias range_bias=0.1
 absent x.las
 expect 2 "17206 of 17206 points*their GPS time is 0" calibrate zero_times.las "$block/strip2.las" -trajectory "$trajectory" -output x.json
 absent x.json
@@ -76,14 +76,14 @@ expect 0 "no points" info no_points.las
 
 # Ids of pulses: what is wrong is named, and the listing remains one that can be read.
 check "las_damage" "$damage" "$block/strip1.las" pulses.las pulse_ids
-expect 0 "! there are 17 206 point source ids*-split divides the points into flight lines" info pulses.las -json pulses.json
+expect 0 "! there are 17 206 point source ids*-split divides the points into flight lines" info pulses.las -output pulses.json
 check "a long list is cut" test "$(wc -l <out.txt)" -lt 400
 check "the JSON file has all strips" test "$(grep -c '"recorded_with"' pulses.json)" = 17206
 
 # An input is never an output.
 cp "$block/strip1.las" mine.las
-expect 1 "mine.las" apply mine.las mine.las -trajectory "$trajectory" -biases range_bias=0.1
+expect 1 "mine.las" apply mine.las mine.las -trajectory "$trajectory" -bias range_bias=0.1
 ln -s mine.las link.las
-expect 1 "link.las" apply mine.las link.las -trajectory "$trajectory" -biases range_bias=0.1
+expect 1 "link.las" apply mine.las link.las -trajectory "$trajectory" -bias range_bias=0.1
 check "input untouched" cmp "$block/strip1.las" mine.las
 finish

@@ -27,7 +27,7 @@ cmp back.las adjusted/strip1.las || failed "LAS 1.4 to 1.5 and back changes byte
 biases=boresight_roll=90,range_bias=-0.1,scan_angle_scale=1e-4
 for form in "${forms[@]}"; do
   file=$(ls $form/strip1.la?)
-  run apply "$file" "$form.las" -trajectory week/trajectory.csv -biases $biases
+  run apply "$file" "$form.las" -trajectory week/trajectory.csv -bias $biases
   run intensity "$file" "$form.intensity.las" -trajectory week/trajectory.csv
   run calibrate $form/strip*.la? -trajectory week/trajectory.csv -control week/control.csv -output "$form.json"
 done

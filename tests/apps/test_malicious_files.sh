@@ -28,7 +28,7 @@ patched() {  # IN OUT (POSITION TYPE VALUE)…: a copy with numbers of perl's pa
 refused() {  # FILE TEXT: by a tool that lists, one that converts, one that computes
   expect 2 "$1*$2" info "$1"
   expect 2 "$1*$2" convert "$1" out.las
-  expect 2 "$1*$2" apply "$1" out.las -trajectory "$trajectory" -biases range_bias=0.1
+  expect 2 "$1*$2" apply "$1" out.las -trajectory "$trajectory" -bias range_bias=0.1
   absent out.las
 }
 lie() {  # NAME TEXT FILE (POSITION TYPE VALUE)…
@@ -126,7 +126,7 @@ mkfifo pipe.csv
 mkdir folder
 strip=$block/strip1.las
 for input in /dev/zero sparse.csv pipe.csv folder; do
-  expect 2 "$input: " apply "$strip" out.las -trajectory "$input" -biases range_bias=0.1
+  expect 2 "$input: " apply "$strip" out.las -trajectory "$input" -bias range_bias=0.1
   expect 2 "$input: " check "$strip" -control "$input" -output out.json
   expect 2 "$input: " accuracy "$input" -output out.json
 done
@@ -136,7 +136,7 @@ for input in /dev/zero sparse.json pipe.csv folder; do
 done
 absent out.las out.json
 # A process substitution is a pipe with a program at its other end.
-expect 0 points apply "$strip" piped.las -trajectory <(cat "$trajectory") -biases range_bias=0.1
-expect 0 points apply "$strip" whole.las -trajectory "$trajectory" -biases range_bias=0.1
+expect 0 points apply "$strip" piped.las -trajectory <(cat "$trajectory") -bias range_bias=0.1
+expect 0 points apply "$strip" whole.las -trajectory "$trajectory" -bias range_bias=0.1
 check 'a process substitution is read as a file' cmp piped.las whole.las
 finish

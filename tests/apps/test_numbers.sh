@@ -46,8 +46,8 @@ estimation="range_noise angle_noise beam_divergence position_sigma roll_pitch_si
   control_sigma"
 strips=("$one" "$two")
 for tool in "$bin"/pcl_als_*; do numbers threads "${tool##*/pcl_als_}" "$one"; done
-numbers "gps_week line_fit" apply "$one" x.las -trajectory "$flight" -biases range_bias=0.1
-part biases range_bias=@ apply "$one" x.las -trajectory "$flight"
+numbers "gps_week line_fit" apply "$one" x.las -trajectory "$flight" -bias range_bias=0.1
+part bias range_bias=@ apply "$one" x.las -trajectory "$flight"
 numbers "gps_week line_fit max_distance points candidates select $estimation" \
   calibrate "${strips[@]}" -trajectory "$flight" -output x.json
 numbers "gps_week line_fit quality_level control_sigma max_distance cell points" \
@@ -55,11 +55,11 @@ numbers "gps_week line_fit quality_level control_sigma max_distance cell points"
 classify=(classify "${strips[@]}" -training "$block/training.csv" -output x.tif)
 numbers "cell reject training_radius surface_gap terrain_gap largest_object texture_window tile" \
   "${classify[@]}"
-part extent 0,0,@,9 "${classify[@]}"
+part bounds 0,0,@,9 "${classify[@]}"
 part priors tree=@ "${classify[@]}"
 part ground_classes 2,@ "${classify[@]}"
-numbers "search_distance determined_std points pairs iterations" icpatch "${strips[@]}" -output x.json
-numbers "length area angle noise same_distance strip_sigma" lines "$one" -output x.csv
+numbers "max_distance determined_std points_per_strip candidates iterations" icpatch "${strips[@]}" -output x.json
+numbers "length area angle point_noise same_distance strip_sigma" lines "$one" -output x.csv
 if [[ -x $bin/pcl_als_orient ]]; then
   numbers "assign image_sigma" orient -images x -lines x -camera x -output x.json
 fi
@@ -72,10 +72,10 @@ numbers resolution convert "$one" x.las
 intensity=(intensity "$one" x.las -trajectory "$flight")
 numbers "gps_week line_fit reference_range range_exponent incidence_exponent largest_incidence
   visibility temperature pressure humidity wavelength attenuation saturation surface_radius
-  surface_tolerance divergence cell target_radius scale" "${intensity[@]}"
-part gains 1=@ "${intensity[@]}"
+  surface_tolerance beam_divergence cell target_radius intensity_scale" "${intensity[@]}"
+part strip_gains 1=@ "${intensity[@]}"
 part pulse_rates 1=@ "${intensity[@]}"
-numbers "fov speed density ground_slope slope sloped usable control $estimation" plan -lines lines.csv
+numbers "fov speed pulse_density ground_slope slope sloped usable control $estimation" plan -lines lines.csv
 numbers spacing plan -lines lines.csv
 numbers "scale density seed fov relief buildings trees gain range_exponent incidence_exponent
   visibility height sessions" simulate -preset small -output x
@@ -86,8 +86,8 @@ part strip_gains 1=@ simulate -preset small -output x
 if [[ -x $bin/pcl_als_view ]]; then
   numbers "cell azimuth elevation zoom point_size" view "$one" -output x.png
   part size 1600x@ view "$one" -output x.png
-  part range 0:@ view "$one" -output x.png
-  part extent 0,0,@,9 view "$one" -output x.png
+  part color_range 0:@ view "$one" -output x.png
+  part bounds 0,0,@,9 view "$one" -output x.png
   profile=(profile "${strips[@]}" -output x.png)
   numbers auto "${profile[@]}"
   numbers width "${profile[@]}" -from 0,0 -to 9,9

@@ -20,7 +20,7 @@ done
 
 # The text of every option speaks of options that the tool has, and is whole on the manual page.
 texts() {  # VERB: the name and the text of every option, as -h prints them
-  "$bin/pcl_als_$1" -h | awk '/^Options/ { on = 1; next } /^Example/ { on = 0 }
+  "$bin/pcl_als_$1" -h | awk '/^Options/ { on = 1; next } /^Example/ { on = 0 } /^[A-Z]/ { next }
     on && /^  --/ { if (name != "") print name "\t" text; name = $1; text = ""; sub(/^  --[^ ]+/, "")
                     if (!sub(/^.*  +/, "")) next }
     on && NF { sub(/^ +/, ""); text = text (text == "" ? "" : " ") $0 }
@@ -45,6 +45,27 @@ for tool in "$bin"/pcl_als_*; do
   [[ $(($(wc -l <texts.txt) + 1)) == $(wc -l <names.txt) ]] || failed "pcl_als_$verb: -h and -list_options differ"
 done
 
+# The parts of -h are those of the manual page, and -list_options names the part of each option.
+for tool in "$bin"/pcl_als_*; do
+  verb=${tool##*/pcl_als_}
+  "$tool" -h | awk '/^Options/ { on = 1; next } /^Example/ { on = 0 } on && /^[A-Z].*:$/ { sub(/:$/, ""); print }' >parts.txt
+  "$tool" -h | awk -v tool="pcl_als_$verb" -v version=1 -v manual=page -f "$man_page" >page.1
+  check "parts of the manual page of $verb" cmp parts.txt <(sed -n 's/^\.SS //p' page.1)
+  check "parts of $verb are listed" test "$("$tool" -list_options |
+    awk -F'\t' 'NR == 1 && $9 == "group" { named = 1 } NR > 1 && $1 != "IN" && $1 != "OUT" { seen[$9] }
+      END { print named ? length(seen) : "none" }')" == "$(wc -l <parts.txt)"
+done
+check "needed options first" test "$("$bin/pcl_als_calibrate" -h | grep -A1 '^Output:' | grep -o -- '--[a-z]*')" == --output
+
+# Names that options had before are accepted with a remark, and no tool lists them.
+checks=$((checks + 2))
+run info "$block/strip1.las" -json former.json
+[[ $status == 0 && -s former.json && $(<err.txt) == "pcl_als_info: option -json is now called -output; the next"* ]] ||
+  failed "a former name: status $status"
+run icpatch a.las b.las -output x.json -pairs 500
+[[ $status == 1 && $(<err.txt) == *"option -candidates: '0.5' is not a number from 1 to 100000 thousands" ]] ||
+  failed "a former name with another unit: status $status"
+
 # Options that are needed are missed before a file is read.
 expect 1 "option -output is needed" trajectory "$block/control.csv"
 expect 1 "option -output is needed" trajectory -trajectory none.csv
@@ -54,10 +75,10 @@ expect 1 "options -output and -grids is needed" classify none.las -training none
 expect 1 "options -output and -window is needed" view none.las
 
 # Options without an effect are refused.
-expect 1 "option -own needs -system" calibrate none.las -trajectory none.csv -output c.json -own offset
+expect 1 "option -own needs -systems" calibrate none.las -trajectory none.csv -output c.json -own offset
 expect 1 "option -fixed_sigma needs -fixed" calibrate none.las -trajectory none.csv -output c.json -fixed_sigma 0.1
 expect 1 "option -control_sigma needs -control" calibrate none.las -trajectory none.csv -output c.json -control_sigma 0.1
-expect 1 "option -uncertainty_cell needs -uncertainty_raster" apply none.las x.las -trajectory none.csv -biases range_bias=1 -uncertainty_cell 5
+expect 1 "option -uncertainty_cell needs -uncertainty_raster" apply none.las x.las -trajectory none.csv -bias range_bias=1 -uncertainty_cell 5
 expect 1 "options -terrain and -ground_slope exclude each other" plan -lines none.csv -terrain none.asc -ground_slope 3
 expect 1 "option -strip_corrections needs -corrected" calibrate none.las -trajectory none.csv -output c.json -strip_corrections
 
@@ -66,7 +87,7 @@ expect 1 "option -strip_corrections needs -corrected" calibrate none.las -trajec
   --strip-corrections
 expect 1 "option -cell: '-1' is not a number" info "$block" --cell=-1
 mkdir -p 'a folder/nested' none && cp "$block"/strip[12].las 'a folder' && cp "$block/strip3.las" 'a folder/nested'
-printf '# two strips\n"a folder/strip1.las"\t%s -json @name.json # as it is\n' "'a folder'/strip2.las" >words.txt
+printf '# two strips\n"a folder/strip1.las"\t%s -output @name.json # as it is\n' "'a folder'/strip2.las" >words.txt
 expect 0 "2 files" info @words.txt
 check "a word that begins with @ in the file" test -s @name.json
 expect 0 "2 files" info 'a folder'
@@ -116,7 +137,7 @@ full() {  # VERB ARG…: the tool ends with status 2 and one line when stdout is
 }
 full info "$block/strip1.las"
 for tool in "$bin"/pcl_als_*; do full "${tool##*/pcl_als_}" -h; done
-closed() { "$bin/pcl_als_info" "$block/strip1.las" -json closed.json <&- >&- 2>&-; }
+closed() { "$bin/pcl_als_info" "$block/strip1.las" -output closed.json <&- >&- 2>&-; }
 check "closed standard streams" closed
 check "the output is whole" grep -q '"strips"' closed.json
 mkfifo pipe.las
@@ -134,11 +155,11 @@ expect 1 "boresight_rol" simulate -output x -bias boresight_rol=3
 expect 1 "usage" simulate -output x a.las
 absent x
 strip=$block/strip1.las
-expect 1 "trajectory" apply "$strip" x.las -biases range_bias=0.1
-expect 1 "biases" apply "$strip" x.las -trajectory "$block/trajectory.csv"
-expect 1 "range_bia" apply "$strip" x.las -trajectory "$block/trajectory.csv" -biases range_bia=0.1
-expect 1 "range_bias" apply "$strip" x.las -trajectory "$block/trajectory.csv" -biases range_bias=1e9
-expect 1 "usage" apply "$strip" x.las y.las -trajectory "$block/trajectory.csv" -biases range_bias=0.1
+expect 1 "trajectory" apply "$strip" x.las -bias range_bias=0.1
+expect 1 "calibration and -bias" apply "$strip" x.las -trajectory "$block/trajectory.csv"
+expect 1 "range_bia" apply "$strip" x.las -trajectory "$block/trajectory.csv" -bias range_bia=0.1
+expect 1 "range_bias" apply "$strip" x.las -trajectory "$block/trajectory.csv" -bias range_bias=1e9
+expect 1 "usage" apply "$strip" x.las y.las -trajectory "$block/trajectory.csv" -bias range_bias=0.1
 absent x.las y.las
 two=("$block/strip1.las" "$block/strip2.las" -trajectory "$block/trajectory.csv")
 expect 1 "output" calibrate "${two[@]}"
@@ -149,6 +170,6 @@ expect 1 "model" calibrate "${two[@]}" -output x.json -model perfect
 expect 1 "-vertical exclude each other" calibrate "${two[@]}" -output x.json -model rigorous -vertical
 expect 1 "-line_fit: '1e9' is not a number from 0.001 to 60 s" calibrate "${two[@]}" -output x.json -line_fit 1e9
 expect 1 "scan_angle_scale: -1 is not between -0.1 and 0.1" apply "$strip" x.las -trajectory "$block/trajectory.csv" \
-  -biases scan_angle_scale=-1
+  -bias scan_angle_scale=-1
 absent x.json
 finish

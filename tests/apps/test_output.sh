@@ -6,7 +6,7 @@
 source "$(dirname -- "$0")/tool_test.sh"
 strip=$block/strip1.las
 with=(-trajectory "$block/trajectory.csv")
-biases=("${with[@]}" -biases boresight_roll=90)
+biases=("${with[@]}" -bias boresight_roll=90)
 pair=("$block/strip1.las" "$block/strip2.las")
 
 # in_mount OPTIONS COMMAND…: the command with a small file system at ./disk that goes away with it;
@@ -111,7 +111,7 @@ killed() {  # SIGNAL FINAL PATTERN COMMAND…
 }
 for signal in TERM HUP KILL; do  # a shell lets its background jobs ignore INT
   killed $signal x.las 'x.las*.partial' "$bin/pcl_als_apply" "$large" x.las \
-    -trajectory large/trajectory.csv -biases boresight_roll=90
+    -trajectory large/trajectory.csv -bias boresight_roll=90
   killed $signal made/strip1.las 'made/strip1.las*.partial' "$bin/pcl_als_simulate" -output made -preset small
 done
 check "input untouched" test -s "$large"

@@ -53,10 +53,10 @@ left_out() {  # FILE STRIP REASON: the result counts points of that strip
     $1 == "\"strip\":" { on = $2 == strip } on && $1 == "\"reason\":" && $2 == reason { found = 1 }
     END { exit !found }' "$1"
 }
-expect 0 "line4" info id0_*.las -split -without line2 -json info.json
+expect 0 "line4" info id0_*.las -split -without line2 -output info.json
 left_out info.json line2 excluded
 check "line2 is no strip of the census" sh -c '! grep -q "\"id\": \"line2\"" info.json'
-expect 0 "the strip was not chosen" info "${strips[@]}" -strips 1,3 -json info.json
+expect 0 "the strip was not chosen" info "${strips[@]}" -strips 1,3 -output info.json
 left_out info.json 2 excluded
 expect 1 "option -strips: there is no strip 'x'; there are 1, 2, 3, 4" info "${strips[@]}" -strips x
 
@@ -90,7 +90,7 @@ expect 0 "a strip holds several flight lines*unless strips are split into lines"
 training=(-training "$block/training.csv" -cell 1)
 expect 0 "" classify "${strips[@]:0:2}" "${training[@]}" -output two.tif
 expect 0 "the strip was not chosen" classify "${strips[@]}" "${training[@]}" -strips 1,2 -output some.tif \
-  -checkpoints "$block/checkpoints.csv" -accuracy accuracy.json -points classified
+  -checkpoints "$block/checkpoints.csv" -accuracy accuracy.json -classified classified
 check "the map is that of the two strips" cmp two.tif some.tif
 left_out accuracy.json 3 excluded
 check "points that were left out keep their class" cmp "${strips[3]}" classified/strip4.las
@@ -100,9 +100,9 @@ check "lines give the map of the strips they were cut from" cmp two.tif lines.ti
 
 flight=(-trajectory "$good")
 mkdir -p by_strip by_line
-expect 0 "" intensity "${strips[@]:0:2}" "${flight[@]}" -corrected by_strip -json strips.json \
+expect 0 "" intensity "${strips[@]:0:2}" "${flight[@]}" -corrected by_strip -output strips.json \
   -estimate strip_gains
-expect 0 "" intensity id0_1.las id0_2.las "${flight[@]}" -split -corrected by_line -json lines.json \
+expect 0 "" intensity id0_1.las id0_2.las "${flight[@]}" -split -corrected by_line -output lines.json \
   -estimate strip_gains
 check "gains of lines are those of the strips they were cut from" test \
   "$(awk '/"strip_gains"/,/\]/' lines.json | sed 's/line//')" = "$(awk '/"strip_gains"/,/\]/' strips.json)"
@@ -111,16 +111,16 @@ for i in 1 2; do
   check "so are intensities, $i" cmp "same_$i.las" "by_line/id0_$i.las"
 done
 expect 0 "the strip was not chosen" intensity id0_1.las id0_2.las "${flight[@]}" -split \
-  -corrected by_line -json x.json -strips line1
+  -corrected by_line -output x.json -strips line1
 left_out x.json line2 excluded
 expect 0 "measured before the trajectory begins" intensity "${strips[0]}" out.las -trajectory late.csv \
-  -keep_uncovered -json uncovered.json
+  -keep_uncovered -output uncovered.json
 left_out uncovered.json 1 before_trajectory
 # Without surfaces, in columns.
 expect 0 "measured before the trajectory begins" intensity "${strips[0]}" fast.las -trajectory late.csv \
   -keep_uncovered -no_incidence -no_fields
 "$damage" "${strips[0]}" timeless.las some_times || failed damage
-expect 0 "their GPS time is 0" intensity timeless.las out.las "${flight[@]}" -keep_uncovered -json x.json
+expect 0 "their GPS time is 0" intensity timeless.las out.las "${flight[@]}" -keep_uncovered -output x.json
 left_out x.json 1 zero_time
 expect 0 "" icpatch timeless.las "${strips[1]}" -strips 1,2 -output x.json
 check "alignment needs no times" grep -q '"left_out": \[\]' x.json
@@ -131,11 +131,11 @@ left_out calibration.json 1 zero_time
 
 # Four flights in one file without source ids.
 "$damage" id0_1.las one.las append id0_2.las append id0_3.las append id0_4.las || failed damage
-expect 0 "line4" info one.las -split -json info.json
+expect 0 "line4" info one.las -split -output info.json
 columns 'NR > 1 { $1 += 90000 } 1' >elsewhere.csv
 # Where a trajectory is given, every tool divides by it: here, the sensor hovers for 1.8 s.
 columns '$1 > 401003.3 && $1 < 401005.1 { $2 = x; $3 = y } { x = $2; y = $3 } 1' >hover.csv
-expect 0 "line5" info one.las -split -trajectory hover.csv -json info.json
+expect 0 "line5" info one.las -split -trajectory hover.csv -output info.json
 left_out info.json hovering hovering
 expect 0 "" check one.las -split -trajectory hover.csv -output q.json
 left_out q.json hovering hovering

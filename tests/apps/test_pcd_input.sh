@@ -15,13 +15,13 @@ lost="not used: original_intensity"
 expect 0 "$lost" info more1.pcd
 expect 0 "$lost" convert more1.pcd copy.pcd
 expect 0 "$lost" convert more1.pcd copy.las
-expect 0 "$lost" apply more1.pcd copy.pcd "${flight[@]}" -biases range_bias=0.01
+expect 0 "$lost" apply more1.pcd copy.pcd "${flight[@]}" -bias range_bias=0.01
 expect 0 "more1.pcd: its fields are $lost" intensity more1.pcd copy.pcd "${flight[@]}" -no_atmosphere -force
 expect 0 "$lost" icpatch more1.pcd more2.pcd -output pair.json -transformed moved.pcd
 expect 0 "more1.pcd: its fields are $lost" classify more?.pcd -training "$block/training.csv" -cell 5 \
-  -output map.tif -points classes -bands intensity,roughness
+  -output map.tif -classified classes -bands intensity,roughness
 # Nothing is lost of the fields that all have.
-expect 0 "points" apply strip1.pcd copy.pcd "${flight[@]}" -biases range_bias=0.01
+expect 0 "points" apply strip1.pcd copy.pcd "${flight[@]}" -bias range_bias=0.01
 check "nothing is said to be lost" test "$(grep -c 'not used' out.txt)" = 0
 
 # Fields of PDAL, among them the channel of the scanner.
@@ -43,7 +43,7 @@ expect 2 "no field 'laser'" check pdal.pcd -channels laser -output x.json
 fault="averaged.pcd: its GPS times are not used, they are averages of bytes*pcl::VoxelGrid<PointLidar>"
 expect 0 "averages of bytes" info averaged.pcd
 expect 0 "averages of bytes" convert averaged.pcd copy.las
-expect 2 "$fault" apply averaged.pcd x.pcd "${flight[@]}" -biases range_bias=0.01
+expect 2 "$fault" apply averaged.pcd x.pcd "${flight[@]}" -bias range_bias=0.01
 expect 2 "$fault" intensity averaged.pcd x.pcd "${flight[@]}"
 expect 2 "$fault" calibrate averaged.pcd "${flight[@]}" -output x.json
 expect 2 "$fault" trajectory averaged.pcd -output x.csv

@@ -26,7 +26,7 @@ for color in intensity strip class return scan_angle time; do
 done
 expect 0 "shown" view "${strips[@]}" -output oblique.png -azimuth 120 -elevation 30 -zoom 2 -shade hill
 check "oblique.png is a picture" is_png oblique.png 1600x1000
-expect 0 "shown" view "${strips[@]}" -output difference.png -color difference -reference 1
+expect 0 "shown" view "${strips[@]}" -output difference.png -color difference -reference_strip 1
 check "difference.png differs from top.png" eval '! cmp -s difference.png top.png'
 # The same picture again, byte for byte, and whatever the number of threads.
 expect 0 "shown" view "${strips[@]}" -output again.png -size 800x600 -threads 1
@@ -101,15 +101,15 @@ expect 1 "40 million pixels" view "${strips[0]}" -output none.png -size 16000x16
 expect 1 "'moonlight' is none of" view "${strips[0]}" -output none.png -color moonlight
 expect 1 "reference" view "${strips[0]}" -output none.png -color difference
 expect 1 "there is no strip '77'" view "${strips[0]}" -output none.png -strips 77
-expect 1 "rainbow" view "${strips[0]}" -output none.png -map rainbow
-expect 1 "LOW below HIGH" view "${strips[0]}" -output none.png -range 5:1
+expect 1 "rainbow" view "${strips[0]}" -output none.png -color_map rainbow
+expect 1 "LOW below HIGH" view "${strips[0]}" -output none.png -color_range 5:1
 expect 1 "shade" view "${strips[0]}" -output none.png -shade moon
-expect 1 "extent" view "${strips[0]}" -output none.png -extent 1,2,3
-expect 2 "no point to draw" view "${strips[0]}" -output none.png -extent 1,1,2,2
+expect 1 "bounds" view "${strips[0]}" -output none.png -bounds 1,2,3
+expect 2 "no point to draw" view "${strips[0]}" -output none.png -bounds 1,1,2,2
 expect 2 "missing.las" view missing.las -output none.png
 expect 2 "cannot be created: the folder does not exist" view "${strips[0]}" -output nowhere/none.png
 expect 1 ".png" view "${strips[0]}" -output none.jpg
-expect 1 "second strip" view "${strips[0]}" -output none.png -color difference -reference 1
+expect 1 "second strip" view "${strips[0]}" -output none.png -color difference -reference_strip 1
 absent none.png
 
 # Sections, of strips dense enough to show roofs

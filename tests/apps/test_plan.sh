@@ -13,8 +13,8 @@ expect 1 "lines" plan
 expect 1 "usage" plan two.csv
 expect 1 "fov" plan -lines two.csv -fov 0
 expect 1 "sloped" plan -lines two.csv -sloped 2
-expect 1 "density" plan -lines two.csv -density many
-expect 1 "density and -spacing" plan -lines two.csv -density 1 -spacing 1
+expect 1 "density" plan -lines two.csv -pulse_density many
+expect 1 "density and -spacing" plan -lines two.csv -pulse_density 1 -spacing 1
 expect 1 "control" plan -lines two.csv -control -1
 expect 1 "wobble" plan -lines two.csv -estimate wobble
 expect 2 "none.csv: *there is no such file" plan -lines none.csv

@@ -76,7 +76,7 @@ compare() {
 }
 
 biases=boresight_roll=100,boresight_heading=-60,range_bias=0.1
-compare apply apply 0 "${strips[@]}" -corrected . -trajectory "$flight" -biases $biases
+compare apply apply 0 "${strips[@]}" -corrected . -trajectory "$flight" -bias $biases
 compare calibrate calibrate 0 "${strips[@]}" -trajectory "$flight" -control "$block/control.csv" \
   -output calibration.json -corrected . -report report
 compare calibrate_reconstructed calibrate 0 "${strips[@]}" -trajectory reconstruct \
@@ -86,15 +86,15 @@ compare calibrate_positions calibrate 0 "${strips[@]}" -trajectory "$flight" \
 compare check check 0 "${strips[@]}" -trajectory "$flight" -control "$block/control.csv" \
   -output quality.json
 compare intensity intensity 0 "${strips[@]}" -corrected . -trajectory "$flight" \
-  -estimate strip_gains -json intensity.json
+  -estimate strip_gains -output intensity.json
 compare classify classify 0 "${strips[@]}" -training "$block/training.csv" -cell 2 -tile 64 \
-  -output landcover.tif -grids grids.tif -points .
+  -output landcover.tif -grids grids.tif -classified .
 
 # A damaged file ends the job with the message of one process, and no temporary is left.
 mkdir damaged
 head -c 3000 "$block/strip3.las" >damaged/strip9.las
 among 3 apply "${strips[@]}" damaged/strip9.las -corrected failed -trajectory "$flight" \
-  -biases $biases
+  -bias $biases
 checks=$((checks + 3))
 [[ $status == 2 ]] || failed "a damaged file: exit status $status"
 [[ $(grep -c '^pcl_als_apply: damaged/strip9.las: ' err.txt) == 1 ]] ||
@@ -110,7 +110,7 @@ if [[ $kind == folder ]]; then
   refused() {  # STATUS PATTERN ARG…
     local wanted=$1 pattern=$2
     shift 2
-    run apply "${strips[@]}" -corrected refused -trajectory "$flight" -biases $biases "$@"
+    run apply "${strips[@]}" -corrected refused -trajectory "$flight" -bias $biases "$@"
     checks=$((checks + 1))
     [[ $status == "$wanted" ]] && grep -q "$pattern" err.txt || failed "not refused: $*"
   }
@@ -125,7 +125,7 @@ if [[ $kind == folder ]]; then
   refused 2 'of another run' -process 1/2 -exchange stale
   # Processes with different options do not wait for each other.
   "$bin/pcl_als_apply" "${strips[@]}" -corrected refused -trajectory "$flight" -threads 1 \
-    -biases boresight_roll=7 -process 2/2 -exchange different 2>second.txt &
+    -bias boresight_roll=7 -process 2/2 -exchange different 2>second.txt &
   refused 1 'process 2 has other options' -process 1/2 -exchange different -threads 1
   other=0
   wait $! || other=$?
@@ -148,7 +148,7 @@ echo $$ >"pid.$OMPI_COMM_WORLD_RANK"
 exec "$@"
 EOT
 chmod +x rank.sh
-many=(many/*.las -trajectory "$flight" -biases $biases)
+many=(many/*.las -trajectory "$flight" -bias $biases)
 run apply "${many[@]}" -corrected uninterrupted -threads 1
 status=0
 mpirun -n 3 ./rank.sh "$bin/pcl_als_apply" "${many[@]}" -corrected killed -resume \

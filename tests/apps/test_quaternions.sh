@@ -20,13 +20,13 @@ quaternions() {
 quaternions ned.txt 'timestamp tx ty tz qx qy qz qw' 'x = $5; y = $6; z = $7'
 quaternions enu.txt '# time x y z Quat_X Quat_Y Quat_Z Quat_W' 'x = $5; y = -$6; z = 90 - $7'
 
-apply=(apply "$block/strip1.las" out.las -biases boresight_roll=100,boresight_pitch=80)
+apply=(apply "$block/strip1.las" out.las -bias boresight_roll=100,boresight_pitch=80)
 calibrate=(calibrate "$block"/strip?.las -control "$block/control.csv" -model rigorous -output c.json)
 expect 0 '' "${apply[@]}" -trajectory "$csv"
 mv out.las plain.las
 expect 0 '' "${calibrate[@]}" -trajectory "$csv"
 grep '"bias"' c.json >plain.txt
-expect 0 'heading within 2 degrees of the course' info -trajectory "$csv" -json plain.json
+expect 0 'heading within 2 degrees of the course' info -trajectory "$csv" -output plain.json
 equal() {  # FILE: the biases are those of the angles, to the rounding of the quaternions
   paste -d' ' <(grep -o '"bias": *[-0-9.e]*' "$1" | sed 's/.*: *//') \
     <(grep -o '"bias": *[-0-9.e]*' plain.txt | sed 's/.*: *//') |
@@ -42,7 +42,7 @@ for file in ned enu; do
   check "points with $file.txt" cmp out.las plain.las
   expect 0 "$axes" "${calibrate[@]}" -trajectory $file.txt
   check "the calibration with $file.txt" equal c.json
-  expect 0 "heading within 2 degrees of the course; quaternions turn" info -trajectory $file.txt -json $file.json
+  expect 0 "heading within 2 degrees of the course; quaternions turn" info -trajectory $file.txt -output $file.json
   check "facts of $file.txt" diff <(facts plain.json) <(facts $file.json)
   # What is stated is taken, right or wrong.
   rm -f out.las
@@ -54,7 +54,7 @@ expect 2 'does not follow its course' "${apply[@]}" -trajectory enu.txt -traject
 
 # A sensor that is turned to the side: the course tells neither.
 quaternions side.txt 'timestamp tx ty tz qx qy qz qw' 'x = $5; y = $6; z = $7 + 90'
-for tool in "apply $block/strip1.las out.las -biases boresight_roll=100" "calibrate $block/strip1.las $block/strip2.las -output x.json" \
+for tool in "apply $block/strip1.las out.las -bias boresight_roll=100" "calibrate $block/strip1.las $block/strip2.las -output x.json" \
   "trajectory -output x.csv"; do
   # shellcheck disable=SC2086
   expect 2 'side.txt: the course does not show whether its quaternions * state them with -trajectory_axes' $tool -trajectory side.txt

@@ -24,7 +24,7 @@ check "standard deviations of all positions and angles" awk -F, 'NR > 1 {
 # As SBET with its accuracies: the same positions, to a tenth of a millimetre.
 expect 0 '' trajectory "${strips[@]}" -output path.sbet
 check "17 values of 8 bytes for each sample" test "$(($(wc -c <path.sbet) / 136 + 1))" = "$(wc -l <path.csv)"
-expect 0 '' trajectory -trajectory path.sbet -crs EPSG:32611 -accuracy path_smrmsg.out -output back.csv
+expect 0 '' trajectory -trajectory path.sbet -crs EPSG:32611 -trajectory_accuracy path_smrmsg.out -output back.csv
 check "the SBET and its accuracies are those of the text" awk -F, '
   function off(a, b) { return a - b > b - a ? a - b : b - a }
   FNR == 1 { next }
@@ -74,7 +74,7 @@ for strip in 1 4; do
 done
 expect 0 '' check "${strips[@]}" -trajectory reconstruct -output quality.json
 
-expect 1 'pcl_als_trajectory first' apply "${strips[0]}" out2.las -trajectory reconstruct -biases boresight_roll=10
+expect 1 'pcl_als_trajectory first' apply "${strips[0]}" out2.las -trajectory reconstruct -bias boresight_roll=10
 expect 1 'option -calibration needs -trajectory' trajectory "${strips[0]}" -calibration word.json -output a.csv
 expect 1 'does not end in .csv, .sbet, .out' trajectory "${strips[0]}" -output a.txt
 expect 2 'no such file' trajectory absent.las -output a.csv

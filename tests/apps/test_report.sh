@@ -26,7 +26,7 @@ expect 0 "report.html" check corrected/strip{1,2,3}.las -before "$block/strip1.l
 check "the page has its title" grep -q "<h1>Mission &lt;7&gt;</h1>" check/report.html
 expect 1 "title" check "${strips[@]}" -output none.json -title "no report"
 expect 0 "report.html" intensity "${strips[@]}" -corrected intensity -trajectory "$block/trajectory.csv" \
-  -estimate strip_gains -json intensity.json -report intensity_report
+  -estimate strip_gains -output intensity.json -report intensity_report
 expect 2 "report" intensity "${strips[0]}" none.las -trajectory "$block/trajectory.csv" -report /proc/nowhere
 absent none.las
 for file in check/report.html check/report.md check/quality.md intensity_report/report.html intensity_report/report.md; do

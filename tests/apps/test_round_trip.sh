@@ -13,7 +13,7 @@ near() {  # FILE NAME EXPECTED TOLERANCE
 
 # Zero biases change no byte; taking out and putting in ends where it began, to one unit.
 for tool in "" -invert; do
-  expect 0 "" apply "$block/strip1.las" zero.las -trajectory "$block/trajectory.csv" -biases boresight_roll=0 $tool
+  expect 0 "" apply "$block/strip1.las" zero.las -trajectory "$block/trajectory.csv" -bias boresight_roll=0 $tool
   check "zero biases $tool" cmp "$block/strip1.las" zero.las
 done
 
@@ -36,7 +36,7 @@ expect 0 "" apply block/strip1.las strips.las -trajectory block/trajectory.csv -
   -strip_corrections
 check "strip corrections do something" test "$(cmp -l strips.las applied.las 2>/dev/null | head -100 | wc -l)" = 100
 expect 1 "strip_corrections" apply block/strip1.las none.las -trajectory block/trajectory.csv \
-  -biases boresight_roll=1 -strip_corrections
+  -bias boresight_roll=1 -strip_corrections
 absent none.las
 # Without its attitude the trajectory gives the points' own: nearly the same biases.
 expect 0 "converged" calibrate block/strip*.las -trajectory block/trajectory.csv -control block/control.csv \

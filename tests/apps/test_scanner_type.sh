@@ -13,7 +13,7 @@ xz -dc "$data/real/stbarth/stbarth.las.xz" >stbarth.las
 flight=(-trajectory "$data/real/stbarth/trajectory.csv")
 expect 2 'no linear scanner' calibrate stbarth.las "${flight[@]}" -output c.json
 expect 2 '-model nominal' calibrate stbarth.las "${flight[@]}" -output c.json
-expect 2 'no linear scanner' apply stbarth.las out.las "${flight[@]}" -biases boresight_roll=100
+expect 2 'no linear scanner' apply stbarth.las out.las "${flight[@]}" -bias boresight_roll=100
 absent out.las
 # Nominal attitude uses the rigorous model; the result says so, and is applied with it.
 run calibrate stbarth.las "${flight[@]}" -model nominal -output nominal.json
@@ -23,8 +23,8 @@ grep -q '"attitude": *"nominal"' nominal.json || failed "nominal.json does not s
 run apply stbarth.las out.las "${flight[@]}" -calibration nominal.json -force
 checks=$((checks + 1))
 [[ $status == 0 && $(<out.txt) == *'nominal attitude'* ]] || failed "apply -force of nominal.json: status $status"
-expect 0 'taken as level' apply stbarth.las forced.las "${flight[@]}" -biases boresight_roll=100 -force -no_record
-expect 0 'nominal attitude' apply stbarth.las level.las "${flight[@]}" -biases boresight_roll=100 -model nominal -no_record
+expect 0 'taken as level' apply stbarth.las forced.las "${flight[@]}" -bias boresight_roll=100 -force -no_record
+expect 0 'nominal attitude' apply stbarth.las level.las "${flight[@]}" -bias boresight_roll=100 -model nominal -no_record
 check "forced is nominal" cmp forced.las level.las
 rm -f stbarth.las out.las forced.las level.las
 finish

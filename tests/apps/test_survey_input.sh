@@ -9,7 +9,7 @@ strip=$block/strip1.las good=$block/trajectory.csv
 # apply_with STATUS TEXT TRAJECTORY; a refusal leaves no file.
 apply_with() {
   rm -f x.las
-  expect "$1" "$2" apply "$strip" x.las -trajectory "$3" -biases boresight_roll=90
+  expect "$1" "$2" apply "$strip" x.las -trajectory "$3" -bias boresight_roll=90
   [[ $1 == 0 ]] || absent x.las
 }
 refused() {  # TRAJECTORY TEXT
@@ -34,7 +34,7 @@ columns 'NR > 1 { $1 = 401000 } { print }' >one_time.csv; refused one_time.csv "
 # The strip lasts from 401003 to 401005.25 s: a hole in the middle, and an end before it.
 columns 'NR == 1 || $1 < 401003.5 || $1 > 401005' >gap.csv; apply_with 2 "*gap*" gap.csv
 head -3 "$good" >two_samples.csv; refused two_samples.csv "*trajectory*"
-expect 0 "" apply "$strip" kept.las -trajectory gap.csv -biases boresight_roll=90 -keep_uncovered
+expect 0 "" apply "$strip" kept.las -trajectory gap.csv -bias boresight_roll=90 -keep_uncovered
 
 # Order and duplicates can be repaired: the points are those of the good trajectory.
 apply_with 0 "" "$good"; mv x.las good.las

@@ -45,12 +45,12 @@ perl -e 'print "RIEGL POSITION&ORIENTATION QUALITY\0", pack("vvV", 1, 0, 67), "\
   for ($t = 0; $t < 9; $t++) { print pack("d<8v", 1000 + $t, (0.02) x 3, (0.003) x 3, 1, 9) }' >flight.poq
 cp flight.poq renamed.pos
 for file in smrmsg_1.out accuracy.sbet accuracy.csv smrmsg_cut.out flight.poq renamed.pos; do
-  expect 2 "$file: holds the standard deviations of a trajectory, not its positions: * this file is one for -accuracy" \
+  expect 2 "$file: holds the standard deviations of a trajectory, not its positions: * this file is one for -trajectory_accuracy" \
     info -trajectory $file
 done
 expect 2 'holds the standard deviations of a trajectory' intensity "${strips[0]}" x.las -trajectory smrmsg_1.out
-[[ $(<err.txt) != *-accuracy* ]] || failed "pcl_als_intensity has no -accuracy"
-expect 0 'accuracies of a trajectory (smrmsg)' info -accuracy accuracy.csv
+[[ $(<err.txt) != *-trajectory_accuracy* ]] || failed "pcl_als_intensity has no -trajectory_accuracy"
+expect 0 'accuracies of a trajectory (smrmsg)' info -trajectory_accuracy accuracy.csv
 # An SBET that is damaged is none of these.
 head -c 1000 /dev/zero >zeros.sbet
 expect 2 'not a multiple of the 136 of an SBET record' info -trajectory zeros.sbet
@@ -65,7 +65,7 @@ printf '{"for\x9b\x1bmat": "\xff\xfe\x1b[2J"}' >escapes.json
 printf 'VERSION 0.7\nFI\x9bELDS x\xff\n' >escapes.pcd
 printf 'time,x,y,\x9b\x1b[2J\n1,2,3,4\n' >escapes.txt
 for file in random.csv escapes.csv escapes.json escapes.pcd escapes.txt "${strips[0]}" smrmsg_1.out; do
-  for option in "check ${strips[*]} -output x.json -control" "info -trajectory" "info -accuracy" "plan -lines" "accuracy -output x.json" \
+  for option in "check ${strips[*]} -output x.json -control" "info -trajectory" "info -trajectory_accuracy" "plan -lines" "accuracy -output x.json" \
     "apply ${strips[0]} x.las -trajectory $csv -calibration" "classify ${strips[0]} -cell 5 -output x.tif -training" \
     "intensity ${strips[0]} x.las -trajectory $csv -targets"; do
     # shellcheck disable=SC2086

@@ -6,7 +6,7 @@
 source "$(dirname -- "$0")/tool_test.sh"
 
 csv=$block/trajectory.csv
-apply=(apply "$block/strip1.las" out.las -biases boresight_roll=100)
+apply=(apply "$block/strip1.las" out.las -bias boresight_roll=100)
 expect 0 '' "${apply[@]}" -trajectory "$csv"
 mv out.las plain.las
 same() {  # WHAT OPTION…: the points corrected with this trajectory are those of the block's
@@ -23,13 +23,13 @@ same "two files" -trajectory parts/b.csv parts/a.csv
 same "a folder" -trajectory parts
 rm -f out.las
 expect 0 'repeat those of other files' apply -trajectory parts/a.csv parts/b.csv "$block/strip1.las" out.las \
-  -biases boresight_roll=100
+  -bias boresight_roll=100
 check "files before the points" cmp out.las plain.las
 mkdir apart
 cp parts/a.csv apart
 awk -F, -v OFS=, -v OFMT=%.6f -v CONVFMT=%.6f 'NR > 1 { $2 += 0.1 } { print }' parts/b.csv >apart/b.csv
 for tool in "check $block/strip?.las -output q.json" "calibrate $block/strip?.las -output c.json" \
-  "intensity $block/strip1.las out.las" "apply $block/strip1.las out.las -biases boresight_roll=100"; do
+  "intensity $block/strip1.las out.las" "apply $block/strip1.las out.las -bias boresight_roll=100"; do
   # shellcheck disable=SC2086
   expect 2 'apart/b.csv and apart/a.csv lie 0.100 m apart at * not one trajectory' $tool -trajectory apart
 done
@@ -37,7 +37,7 @@ done
 mkdir gap
 head -n 3001 "$csv" >gap/a.csv
 { head -n 1 "$csv"; tail -n +5000 "$csv"; } >gap/b.csv
-expect 2 'points have no trajectory: * in its gaps' apply "$block/strip3.las" out.las -biases boresight_roll=100 -trajectory gap
+expect 2 'points have no trajectory: * in its gaps' apply "$block/strip3.las" out.las -bias boresight_roll=100 -trajectory gap
 expect 1 'a.csv is given twice' "${apply[@]}" -trajectory gap/a.csv gap/a.csv
 
 # Without a header; angles in gon; another order with a column that means nothing.
@@ -64,22 +64,22 @@ perl -e 'for ($t = 400990; $t < 402190; $t++) { $k = ($t - 400990) % 250 < 30 ? 
   print pack "d<*", $t, 0.02 * $k, 0.02 * $k, 0.03 * $k, 0, 0, 0, 0.2 * $k, 0.2 * $k, 0.5 * $k }' >smrmsg_1.out
 calibrate=(calibrate "$block"/strip?.las -trajectory "$csv" -control "$block/control.csv" -output a.json)
 expect 0 'over the strips: position 0.024 m, roll and pitch 12.0 arcsec, heading 30.0 arcsec' \
-  "${calibrate[@]}" -accuracy smrmsg_1.out
+  "${calibrate[@]}" -trajectory_accuracy smrmsg_1.out
 expect 0 'over the strips: position 0.024 m, heading 30.0 arcsec' \
-  "${calibrate[@]}" -accuracy smrmsg_1.out -roll_pitch_sigma 8
+  "${calibrate[@]}" -trajectory_accuracy smrmsg_1.out -roll_pitch_sigma 8
 expect 0 '' "${calibrate[@]}" -position_sigma 0.0238048 -roll_pitch_sigma 12 -heading_sigma 30
 mv a.json given.json
-expect 0 '' "${calibrate[@]}" -accuracy smrmsg_1.out
+expect 0 '' "${calibrate[@]}" -trajectory_accuracy smrmsg_1.out
 check "the same as the options" diff <(grep -A2 lever_arm_x given.json | cut -c1-17) \
   <(grep -A2 lever_arm_x a.json | cut -c1-17)
 perl -e 'print pack "d<*", 100000, (0.02) x 9' >other.out
-expect 2 'are not those of the strips' "${calibrate[@]}" -accuracy other.out
-expect 0 'accuracies of a trajectory (smrmsg), 1 200 records' info -accuracy smrmsg_1.out
-expect 2 'not a multiple of the 80' info -accuracy "$csv"
+expect 2 'are not those of the strips' "${calibrate[@]}" -trajectory_accuracy other.out
+expect 0 'accuracies of a trajectory (smrmsg), 1 200 records' info -trajectory_accuracy smrmsg_1.out
+expect 2 'not a multiple of the 80' info -trajectory_accuracy "$csv"
 expect 0 'heading within 2 degrees of the course' info -trajectory parts
 # What is listed is in the JSON as well, with and without points.
-expect 0 '' info -trajectory parts -accuracy smrmsg_1.out -json flight.json
-expect 0 '' info "$block/strip1.las" -trajectory enu.csv -json both.json
+expect 0 '' info -trajectory parts -trajectory_accuracy smrmsg_1.out -output flight.json
+expect 0 '' info "$block/strip1.las" -trajectory enu.csv -output both.json
 for text in '"format": "text"' '"frame": "map coordinates, those of the points assumed"' \
   '"time_kind": "seconds of the GPS week"' '"follows_course": true' '"samples_per_second": 199.99' '"records": 1200'; do
   check "flight.json has $text" grep -q "$text" flight.json

@@ -7,7 +7,7 @@
 source "$(dirname -- "$0")/tool_test.sh"
 
 csv=$block/trajectory.csv
-biases=(-biases boresight_roll=100,boresight_pitch=100,boresight_heading=60,lever_arm_x=0.1)
+biases=(-bias boresight_roll=100,boresight_pitch=100,boresight_heading=60,lever_arm_x=0.1)
 
 # variant NAME FIRST LAST PROGRAM: the trajectory, its lines FIRST to LAST changed by an awk program.
 variant() {
@@ -66,7 +66,7 @@ expect 0 'line 701' intensity "$block/strip1.las" i.las -trajectory zero.csv
 expect 0 'line 701' trajectory -trajectory zero.csv -output t.csv
 check "the converted trajectory lacks the sample" test "$(grep -vc '^#' t.csv)" = 8255
 check "info names the line" grep -q 'line 701' <("$bin/pcl_als_info" -trajectory zero.csv)
-expect 0 '' info -trajectory zero.csv -json zero.json
+expect 0 '' info -trajectory zero.csv -output zero.json
 check "info writes the line" grep -q '"line": 701' zero.json
 expect 0 'not usable: 100 of 8 255' info -trajectory many.csv
 mkdir parts

@@ -19,14 +19,14 @@ remark="strip1.las: the header's bounding box is wrong: it says"
 flight=(-trajectory "$block/trajectory.csv")
 
 results() {  # FOLDER TEXT: what the tools make of the strips there
-  expect 0 "${2#strip1.las: }" apply "$1/strip1.las" "$1/applied.las" "${flight[@]}" -biases boresight_roll=100 \
+  expect 0 "${2#strip1.las: }" apply "$1/strip1.las" "$1/applied.las" "${flight[@]}" -bias boresight_roll=100 \
     -uncertainty_raster "$1/uncertainty.tif" -uncertainty_cell 5
   expect 0 "$2" convert "$1/strip1.las" "$1/strip1.pcd"
   expect 0 "$2" convert "$1/strip1.las" "$1/strip1.laz"
   expect 0 "$2" icpatch "$1/strip1.las" "$1/strip2.las" -output "$1/icpatch.json"
   expect 0 "$2" classify "$1"/strip[12].las -training "$block/training.csv" -cell 2 \
     -output "$1/cover.tif" -grids "$1/grids.tif"
-  expect 0 "${2#strip1.las: }" info "$1/strip1.las" -json "$1/info.json"
+  expect 0 "${2#strip1.las: }" info "$1/strip1.las" -output "$1/info.json"
   grep -v 'header_m\|path\|bounding box' "$1/info.json" | tr -d ' \n' |
     sed 's/"header_m[a-z]*":\[[^]]*\]//g' >"$1/info.txt"
   sed 's/right\|wrong//g' "$1/icpatch.json" >"$1/icpatch.txt"

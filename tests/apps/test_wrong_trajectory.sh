@@ -23,7 +23,7 @@ variant tail '$7 += 180'
 strips=("$block"/strip*.las)
 calibrate=(calibrate "${strips[@]}" -control "$block/control.csv" -output c.json)
 check=(check "${strips[@]}" -output q.json)
-apply=(apply "$block/strip1.las" out.las -biases boresight_roll=100)
+apply=(apply "$block/strip1.las" out.las -bias boresight_roll=100)
 intensity=(intensity "$block/strip1.las" out.las)
 for wrong in feet xy xz far; do
   for tool in calibrate check apply intensity; do
@@ -68,11 +68,11 @@ awk -F, -v OFS=, -v CONVFMT=%.9f -v OFMT=%.9f 'NR == 1 { print } $1 > 401000 && 
 for tool in check intensity apply; do
   expect 2 'as if the times of the trajectory were UTC*state them with -leap_seconds' \
     $tool "$block/strip1.las" $([[ $tool == check ]] && echo "$block/strip2.las -output q.json" || echo out.las) \
-    $([[ $tool == apply ]] && echo -biases boresight_roll=100) -trajectory utc.csv
+    $([[ $tool == apply ]] && echo -bias boresight_roll=100) -trajectory utc.csv
 done
 expect 0 '! *as if the times of the trajectory were UTC*state them with -leap_seconds' \
   info "$block/strip1.las" -trajectory utc.csv
-expect 0 'scanner of 1' info "$block/strip1.las" -trajectory utc.csv -leap_seconds 18 -json utc.json
+expect 0 'scanner of 1' info "$block/strip1.las" -trajectory utc.csv -leap_seconds 18 -output utc.json
 check "with the leap seconds nothing is wrong" grep -q '"flight_remarks": \[\]' utc.json
 # Times of another GPS week or of the day.
 awk -F, -v OFS=, -v OFMT=%.6f -v CONVFMT=%.6f 'NR > 1 { $1 -= 345600 } { print }' "$block/trajectory.csv" >day.csv
@@ -83,7 +83,7 @@ run simulate -output week -preset small -scale 0.3 -density 0.1 -noise range -se
 awk -F, -v OFS=, -v OFMT=%.6f -v CONVFMT=%.6f 'NR > 1 { $1 += 1543 * 604800 - 1e9 } { print }' \
   week/trajectory.csv >week.csv
 expect 2 'they would overlap 3 week(s) later: the GPS week of one of them is wrong' \
-  apply week/strip1.las out.las -biases boresight_roll=100 -trajectory week.csv
+  apply week/strip1.las out.las -bias boresight_roll=100 -trajectory week.csv
 for tool in calibrate check apply; do
   declare -n command=$tool
   expect 2 'would as in radians' "${command[@]}" -trajectory radians.csv
@@ -107,7 +107,7 @@ while read -r name change text; do
   awk -F, -v OFS=, -v OFMT=%.9f -v CONVFMT=%.9f "NR > 1 { $change } { print }" long/trajectory.csv >"long/$name.csv"
   expect 2 "$text" calibrate long/strip?.las -trajectory "long/$name.csv" -output c.json
   expect 2 "$text" check long/strip?.las -trajectory "long/$name.csv" -output q.json
-  expect 2 "strip2.las: $text" apply long/strip2.las out.las -trajectory "long/$name.csv" -biases boresight_roll=100
+  expect 2 "strip2.las: $text" apply long/strip2.las out.las -trajectory "long/$name.csv" -bias boresight_roll=100
   expect 0 "$text" intensity long/strip2.las out.las -trajectory "long/$name.csv"
   rm -f out.las
 done <<'SIGNS'
@@ -119,7 +119,7 @@ radians $5/=57.29578;$6/=57.29578 the pitch of the trajectory changes by a 57th
 SIGNS
 awk -F, -v OFS=, 'NR > 1 { $5 = 0; $6 = 0 } { print }' long/trajectory.csv >long/level.csv
 expect 0 'warning: the pitch of the trajectory is the same at all times' \
-  apply long/strip2.las out.las -trajectory long/level.csv -biases boresight_roll=100
+  apply long/strip2.las out.las -trajectory long/level.csv -bias boresight_roll=100
 rm -rf out.las long/*.las
 # Heights in feet: scan angles that are recorded show it. The calibration judges the parameters.
 awk -F, -v OFS=, 'NR > 1 { $4 /= 0.3048 } { print }' "$block/trajectory.csv" >tall.csv
@@ -163,7 +163,7 @@ expect 0 'strip is left out' calibrate "${others[@]}" whole.las -control "$block
 check "it is counted" grep -q '"reason": "rounded_times"' c.json
 expect 0 "its scan angles are the file's" check "${others[@]}" whole.las -output q.json \
   -trajectory "$block/trajectory.csv"
-expect 2 'its times are whole seconds' apply whole.las out.las -biases boresight_roll=100 \
+expect 2 'its times are whole seconds' apply whole.las out.las -bias boresight_roll=100 \
   -trajectory "$block/trajectory.csv"
 # What is refused can be forced; a warning stays.
 expect 0 'warning: the heading' "${apply[@]}" -trajectory tail.csv -force

@@ -44,7 +44,7 @@ duration() {
 kill_loop() {
   local bin=$1 folder=$2 hit=0 status pid left=0 wrong=0 whole
   cd -- "$folder" || exit 1
-  args=(files/*.las -trajectory block/trajectory.csv -biases boresight_roll=100 -threads 1)
+  args=(files/*.las -trajectory block/trajectory.csv -bias boresight_roll=100 -threads 1)
   rm -rf whole
   whole=$(duration mpirun -n 3 "$bin/pcl_als_apply" "${args[@]}" -corrected whole)
   ls whole/*.las >/dev/null || { cat err.txt; exit 1; }
@@ -89,7 +89,7 @@ shift 2
 for job in "$@"; do
   case $job in
     apply) args=("${strips[@]}" -corrected out -trajectory block/trajectory.csv
-      -biases boresight_roll=100,range_bias=0.1) ;;
+      -bias boresight_roll=100,range_bias=0.1) ;;
     calibrate) args=("${strips[@]}" -trajectory block/trajectory.csv -output out/calibration.json) ;;
     check) args=("${strips[@]}" -output out/quality.json) ;;
     intensity) args=("${strips[@]}" -corrected out -trajectory block/trajectory.csv

@@ -194,11 +194,11 @@ def check_plan(block):
     return block.check("-control", block.control)
 
 
-@situation("a second day 0.25 m high, `-system -own offset`", "strips 4-5 0.25 m high, removed",
+@situation("a second day 0.25 m high, `-systems -own offset`", "strips 4-5 0.25 m high, removed",
            r"10 of 10 pairs keep QL2")
 def own_offset(block):
     block.simulate("-bias", "none", "-sessions", 2, "-error", "session2:offset_z=0.25")
-    status, text = block.calibrate("-system", "A=1-3", "B=4-5", "-own", "offset", "-corrected",
+    status, text = block.calibrate("-systems", "A=1-3", "B=4-5", "-own", "offset", "-corrected",
                                    "out")
     if status != 0:
         return status, text
@@ -331,7 +331,7 @@ def late(block):
     block.simulate("-bias", "none")
     edit_csv(block.trajectory, moved("time", 1.0))
     return block.run("apply", block.strips()[0], "o.las", "-trajectory", block.trajectory,
-                     "-biases", "boresight_roll=1")
+                     "-bias", "boresight_roll=1")
 
 
 @situation("trajectory 80 m above the true one, `apply`", "80 m at 1150 m",
@@ -340,7 +340,7 @@ def high(block):
     block.simulate("-bias", "none")
     edit_csv(block.trajectory, moved("z", 80.0))
     return block.run("apply", block.strips()[0], "o.las", "-trajectory", block.trajectory,
-                     "-biases", "boresight_roll=1")
+                     "-bias", "boresight_roll=1")
 
 
 @situation("range error by intensity, `calibrate`", "range_bias of the median intensity",
@@ -365,7 +365,7 @@ def bad_sample(block):
         return row
     edit_csv(block.trajectory, zero)
     return block.run("apply", block.strips()[0], "o.las", "-trajectory", block.trajectory,
-                     "-biases", "boresight_roll=1")
+                     "-bias", "boresight_roll=1")
 
 
 @situation("a corrected file is corrected again, `apply`", "corrected twice", r"-force")
@@ -427,7 +427,7 @@ def coarse(block):
 def over_input(block):
     block.simulate()
     return block.run("apply", block.strips()[0], block.trajectory, "-trajectory", block.trajectory,
-                     "-biases", "boresight_roll=1")
+                     "-bias", "boresight_roll=1")
 
 
 def sentence(text, expected):

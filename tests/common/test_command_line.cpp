@@ -206,6 +206,73 @@ TEST(CommandLine, HelpHasEveryOptionWithItsDefault) {
   }
 }
 
+TEST(CommandLine, HelpListsNeededOptionsFirstInEachGroup) {
+  CommandLine line = example();
+  {
+    const OptionGroup group(line, Group::priors);
+    line.addNumber("sigma", "a standard deviation", {}, {0.0, 1.0, "m"});
+  }
+  line.addFlag("later", "a flag");
+  line.addText("title", "a text").in(Group::output);
+  line.addOutputFile("result", "a file", {".txt"}).needed();
+  testing::internal::CaptureStdout();
+  EXPECT_FALSE(parse(line, {"-h"}));
+  const std::string help = testing::internal::GetCapturedStdout();
+  std::size_t before = 0;
+  for (const char* part :
+       {"\nInputs:\n", "--control", "--flight", "\nPriors and assumed errors:\n", "--sigma",
+        "\nOutput:\n", "--result", "--output", "--report", "--title", "\nFurther options:\n",
+        "--threshold", "--model", "--invert", "--later", "--threads", "Example:"}) {
+    const std::size_t at = help.find(part, before);
+    ASSERT_NE(at, std::string::npos) << part << " is not after the others:\n" << help;
+    before = at + 1;
+  }
+  EXPECT_EQ(help.find("Strips:"), std::string::npos);
+}
+
+/// An option that has had two names, one of them with another unit.
+CommandLine renamed() {
+  CommandLine line = example();
+  line.addNumber("count", "a number", {}, {0.0, 100.0, "thousands"})
+      .formerly("number", 1e-3)
+      .formerly("amount");
+  return line;
+}
+
+TEST(CommandLine, FormerNamesAreAcceptedWithARemark) {
+  const auto given = [](std::vector<const char*> arguments) {
+    CommandLine line = renamed();
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(parse(line, std::move(arguments)));
+    return std::make_pair(line.number("count"), testing::internal::GetCapturedStderr());
+  };
+  EXPECT_EQ(given({"-count", "5"}), std::make_pair(5.0, std::string()));
+  EXPECT_EQ(given({"--amount=5"}),
+            std::make_pair(5.0, std::string("pcl_als_example: option -amount is now called -count; "
+                                            "the next release does not accept the former name\n")));
+  EXPECT_EQ(given({"-number", "5000"}).first, 5.0);
+  EXPECT_EQ(given({"-number", "5000", "-quiet"}), std::make_pair(5.0, std::string()));
+}
+
+TEST(CommandLine, FormerNamesAreOptionsLikeOthers) {
+  const auto refused = [](std::vector<const char*> arguments) {
+    CommandLine line = renamed();
+    testing::internal::CaptureStderr();
+    std::string message = "accepted";
+    try {
+      parse(line, std::move(arguments));
+    } catch (const UsageError& error) {
+      message = error.what();
+    }
+    testing::internal::GetCapturedStderr();
+    return message;
+  };
+  EXPECT_EQ(refused({"-count", "1", "-amount", "1"}), "option -count: is given twice");
+  EXPECT_NE(refused({"-number", "500000"}).find("-count: '500' is not a number from 0 to 100"),
+            std::string::npos);
+  EXPECT_NE(refused({"-control", "-amount"}).find("-control: needs a value"), std::string::npos);
+}
+
 TEST(Run, TurnsExceptionsIntoOneLineAndAStatus) {
   const auto status = [](const auto& error) {
     testing::internal::CaptureStderr();

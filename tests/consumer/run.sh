@@ -106,7 +106,7 @@ if [[ -x jobs/draw ]]; then env -u DISPLAY jobs/draw drawn.png "$block"/strip*.l
 # The same from clouds: the noise of the block is 2 cm.
 if [[ -x jobs/clouds ]]; then
   "$prefix/bin/pcl_als_classify" "$block"/strip*.las -training "$block/training.csv" -output by_tool.tif \
-    -save_model model.json -quiet
+    -save_class_model model.json -quiet
   env -u DISPLAY jobs/clouds "$block/trajectory.csv" "$block/control.csv" model.json cloud.png "$block"/strip*.las >clouds.txt
   test -s cloud.png
   awk '{ exit !($2 > 0.1 && $5 < 0.03 && $8 < 0.02) }' clouds.txt || { cat clouds.txt; exit 1; }

@@ -140,7 +140,7 @@ TEST(ApplyTool, AnIndependentSimulatorsErrorsAreTakenOut) {
   const auto control = readControl(*control_file);
   ASSERT_EQ(
       flight.run("'" + strip->string() + "' corrected.las -trajectory '" + trajectory->string() +
-                 "' -biases boresight_pitch=30,boresight_roll=90,boresight_heading=-40,"
+                 "' -bias boresight_pitch=30,boresight_roll=90,boresight_heading=-40,"
                  "range_bias=-0.12"),
       0)
       << flight.message();
@@ -160,7 +160,7 @@ TEST(ApplyTool, TilesOfRealStripsKeepTheirBytesAndReturnWithinOneUnit) {
   const auto trajectory = test::testData("delft_ahn3/trajectory.csv");
   PCL_ALS_REQUIRE_DATA(tile && trajectory);
   Flight flight("delft");
-  const std::string with = " -trajectory '" + trajectory->string() + "' -biases ";
+  const std::string with = " -trajectory '" + trajectory->string() + "' -bias ";
   const std::string in = "'" + tile->string() + "' ";
   ASSERT_EQ(flight.run(in + "same.las" + with + "boresight_roll=0"), 0) << flight.message();
   std::filesystem::copy_file(*tile, flight.path("tile.las"));
@@ -178,7 +178,7 @@ TEST(ApplyTool, AnSbetIsProjectedToTheCrsOfThePoints) {
   PCL_ALS_REQUIRE_DATA(points && sbet);
   Flight flight("sbet");
   const int status = flight.run("'" + points->string() + "' out.las -trajectory '" +
-                                sbet->string() + "' -biases range_bias=0 -crs EPSG:32611");
+                                sbet->string() + "' -bias range_bias=0 -crs EPSG:32611");
   if (flight.message().find("needs PROJ") != std::string::npos) {
     GTEST_SKIP() << "built without PROJ";
   }
@@ -188,14 +188,14 @@ TEST(ApplyTool, AnSbetIsProjectedToTheCrsOfThePoints) {
 
 TEST(ApplyTool, ZeroBiasesGiveTheSameFileByteForByte) {
   Flight flight("zero");
-  ASSERT_EQ(flight.run("strip.las out.las -trajectory trajectory.csv -biases range_bias=0"), 0)
+  ASSERT_EQ(flight.run("strip.las out.las -trajectory trajectory.csv -bias range_bias=0"), 0)
       << flight.message();
   EXPECT_EQ(flight.bytes("strip.las"), flight.bytes("out.las"));
 }
 
 TEST(ApplyTool, InvertAfterApplyReturnsWithinOneUnit) {
   Flight flight("invert");
-  const std::string biases = std::string(" -trajectory trajectory.csv -biases ") + kBiases;
+  const std::string biases = std::string(" -trajectory trajectory.csv -bias ") + kBiases;
   ASSERT_EQ(flight.run("strip.las out.las" + biases), 0) << flight.message();
   ASSERT_EQ(flight.run("out.las back.las -invert" + biases), 0) << flight.message();
   EXPECT_GT(largestStep(flight.path("strip.las"), flight.path("out.las")), 100);
@@ -204,7 +204,7 @@ TEST(ApplyTool, InvertAfterApplyReturnsWithinOneUnit) {
 
 TEST(ApplyTool, ThreadsChangeNoByte) {
   Flight flight("threads");
-  const std::string rest = std::string(" -trajectory trajectory.csv -biases ") + kBiases;
+  const std::string rest = std::string(" -trajectory trajectory.csv -bias ") + kBiases;
   ASSERT_EQ(flight.run("strip.las one.las -threads 1" + rest), 0) << flight.message();
   ASSERT_EQ(flight.run("strip.las four.las -threads 4" + rest), 0) << flight.message();
   EXPECT_EQ(flight.bytes("one.las"), flight.bytes("four.las"));
@@ -213,7 +213,7 @@ TEST(ApplyTool, ThreadsChangeNoByte) {
 TEST(ApplyTool, AdjustedTimesMatchAWeekSecondsTrajectory) {
   Flight week("week"), adjusted("adjusted", kWeekStart);
   const std::string run =
-      std::string("strip.las out.las -trajectory trajectory.csv -biases ") + kBiases;
+      std::string("strip.las out.las -trajectory trajectory.csv -bias ") + kBiases;
   ASSERT_EQ(week.run(run), 0) << week.message();
   ASSERT_EQ(adjusted.run(run), 0) << adjusted.message();
   EXPECT_NE(adjusted.bytes("out.txt").find("GPS week 2139"), std::string::npos);
@@ -279,7 +279,7 @@ TEST(ApplyTool, PointsOutsideTheTrajectoryAreRefusedOrKept) {
   // Half of the flight.
   const std::string all = flight.bytes("trajectory.csv");
   std::ofstream(flight.path("half.csv")) << all.substr(0, all.find("230010,"));
-  const std::string run = std::string("strip.las out.las -trajectory half.csv -biases ") + kBiases;
+  const std::string run = std::string("strip.las out.las -trajectory half.csv -bias ") + kBiases;
   EXPECT_EQ(flight.run(run), 2);
   EXPECT_NE(flight.message().find("of 30000 points have no trajectory"), std::string::npos)
       << flight.message();
@@ -290,7 +290,7 @@ TEST(ApplyTool, PointsOutsideTheTrajectoryAreRefusedOrKept) {
 
 TEST(ApplyTool, WrongUsageAndUnusableInputHaveTheirStatus) {
   Flight flight("errors");
-  const std::string with = std::string(" -trajectory trajectory.csv -biases ") + kBiases;
+  const std::string with = std::string(" -trajectory trajectory.csv -bias ") + kBiases;
   const struct {
     std::string arguments;
     int status;
@@ -300,15 +300,15 @@ TEST(ApplyTool, WrongUsageAndUnusableInputHaveTheirStatus) {
       {"strip.las strip.las" + with, 1, "also an input"},
       {"strip.las out.pcd" + with, 1, "one kind"},
       {"strip.las out.las -trajectory trajectory.csv", 1, "-calibration"},
-      {"strip.las out.las -trajectory trajectory.csv -biases roll=3", 1, "'roll'"},
-      {"strip.las out.las -trajectory trajectory.csv -biases range_bias=x", 1, "'x'"},
-      {"strip.las out.las -trajectory trajectory.csv -biases range_bias=1e9", 1, "range_bias"},
-      {"strip.las out.las -biases range_bias=1", 1, "-trajectory"},
+      {"strip.las out.las -trajectory trajectory.csv -bias roll=3", 1, "'roll'"},
+      {"strip.las out.las -trajectory trajectory.csv -bias range_bias=x", 1, "'x'"},
+      {"strip.las out.las -trajectory trajectory.csv -bias range_bias=1e9", 1, "range_bias"},
+      {"strip.las out.las -bias range_bias=1", 1, "-trajectory"},
       {"strip.las out.las -nonsense" + with, 1, "nonsense"},
       {"strip.las out.las -gps_week 1.5" + with, 1, "-gps_week"},
       {"none.las out.las" + with, 2, "none.las"},
       {"strip.las none/out.las" + with, 2, "none"},
-      {"strip.las out.las -trajectory none.csv -biases range_bias=1", 2, "none.csv"},
+      {"strip.las out.las -trajectory none.csv -bias range_bias=1", 2, "none.csv"},
       {"strip.las out.las -trajectory trajectory.csv -calibration none.json", 2, "none.json"},
   };
   for (const auto& row : cases) {

@@ -68,7 +68,7 @@ class JobTest(FolderTest):
         result = pcl_als.correct_intensity(STRIPS, [os.path.join("python", os.path.basename(s)) for s in STRIPS],
                                            TRAJECTORY, settings=settings, atmosphere=air)
         tool("intensity", *STRIPS, "-corrected", "tool", "-trajectory", TRAJECTORY, "-estimate", "strip_gains",
-             "-visibility", "48.3", "-temperature", "29.8", "-pressure", "101.81", "-json", "tool.json")
+             "-visibility", "48.3", "-temperature", "29.8", "-pressure", "101.81", "-output", "tool.json")
         for strip in map(os.path.basename, STRIPS):
             self.assertTrue(filecmp.cmp(os.path.join("tool", strip), os.path.join("python", strip), shallow=False))
         self.assertEqual(result.gains.keys(), pcl_als.Survey(STRIPS).points_by_strip.keys())

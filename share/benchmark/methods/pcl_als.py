@@ -38,13 +38,13 @@ def systems_of(block):
     if parts[0].startswith("channel"):
         everything = f"{block.ids[0]}-{block.ids[-1]}"
         names = [f"{part}={everything}:{part[len('channel'):]}" for part in parts]
-        return ["-channels", "scanner_channel", "-system", *names, "-own", ",".join(own)]
+        return ["-channels", "scanner_channel", "-systems", *names, "-own", ",".join(own)]
     names = []
     for part in parts:
         day = int(part[len("session"):])
         strips = [strip["id"] for strip in block.about["strips"] if strip["session"] == day]
         names.append(f"{part}={','.join(strips)}")
-    return ["-system", *names, "-own", ",".join(own)]
+    return ["-systems", *names, "-own", ",".join(own)]
 
 
 def trajectory_of(block, entry, options):

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 //
 // clouds TRAJECTORY CONTROL.csv MODEL.json PICTURE.png STRIP…: whole jobs on clouds in memory. The
-// model is one of pcl_als_classify -save_model.
+// model is one of pcl_als_classify -save_class_model.
 #include <cmath>
 #include <exception>
 #include <iostream>

@@ -20,7 +20,7 @@ block=$1 out=$2
 cell=${CELL:-1} bands=${BANDS:-height,intensity}
 read -ra weather <<<"${WEATHER:--visibility 48.3 -temperature 29.8 -pressure 101.81 -wavelength 1064}"
 extent=()
-[[ -z ${EXTENT:-} ]] || extent=(-extent "$EXTENT")
+[[ -z ${EXTENT:-} ]] || extent=(-bounds "$EXTENT")
 mkdir -p -- "$out/calibrated"
 strips=("$block"/strip*.las)
 
@@ -51,7 +51,7 @@ pcl_als_classify "${strips[@]}" "${common[@]}" -output "$out/before.tif" \
   -accuracy "$out/before.json" -checked "$out/before.csv"
 pcl_als_classify "$out"/corrected/strip*.las "${common[@]}" -output "$out/after.tif" \
   -accuracy "$out/after.json" -checked "$out/after.csv" -grids "$out/grids.tif" \
-  -save_model "$out/classes.json" -beside "$out/before.tif" -map "$out/land_cover.png" \
+  -save_class_model "$out/classes.json" -beside "$out/before.tif" -map "$out/land_cover.png" \
   -captions "as delivered,calibrated and corrected"
 
 echo "== 5 Comparing them at the check points"
