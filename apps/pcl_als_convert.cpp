@@ -30,14 +30,40 @@ std::optional<std::vector<std::string>> filesInFolder(const CommandLine& line) {
   return names;
 }
 
+void addFormatOptions(CommandLine& line) {
+  const app::OptionGroup group(line, app::Group::output);
+  line.addChoice("las_version",
+                 "version of the LAS and LAZ files, which are written as a whole (default: that of "
+                 "the input, 1.4 from others); 1.5 has point formats 6 to 10 and its CRS as WKT",
+                 {"1.4", "1.5"});
+  line.addWhole("time_offset",
+                "of LAS 1.5: store absolute times less this offset, e.g. 1500 for the years 2023 "
+                "to 2031 (default: 1000 as in LAS 1.4)",
+                std::nullopt, {0, 65535, "million s"});
+  line.makeDependent("time_offset", "las_version");
+  line.addChoice("format", "format of the files in an output folder (default: as the input)",
+                 {"las", "laz", "pcd", "ply", "xyz"});
+  line.addFlag("ascii", "write .ply files as text (default: binary_little_endian)");
+}
+
 CommandLine commandLine() {
-  CommandLine line("pcl_als_convert",
-                   "converts point files between .las, .laz and .pcd, or writes parts of them. LAS "
-                   "to LAZ to LAS gives the same bytes",
-                   "IN OUT | IN... FOLDER [options]",
-                   "pcl_als_convert tile.laz part.las -bounds 84900,447500,84950,447600");
-  line.setArguments({{"", 1, app::Arguments::kAnyNumber, {".las", ".laz", ".pcd"}, filesInFolder}});
+  CommandLine line(
+      "pcl_als_convert",
+      "converts point files between .las, .laz, .pcd, .ply and .xyz, or writes parts of "
+      "them. LAS to LAZ to LAS gives the same bytes",
+      "IN OUT | IN... FOLDER [options]",
+      "pcl_als_convert tile.laz part.las -bounds 84900,447500,84950,447600");
+  line.setArguments({{"",
+                      1,
+                      app::Arguments::kAnyNumber,
+                      {".las", ".laz", ".pcd", ".ply", ".xyz"},
+                      filesInFolder}});
   app::addWindowOptions(line);
+  line.addText(
+          "columns",
+          "columns of .xyz files in their order, e.g. x,y,z,intensity,gps_time; skip: a column "
+          "that is not used (default: by their header line)")
+      .in(app::Group::inputs);
   app::addStripOptions(line, false);
   line.addFlag(
           "split",
@@ -55,26 +81,14 @@ CommandLine commandLine() {
                "source id of each point (0 between lines): for tiles with wrong ids")
       .in(app::Group::output);
   for (const char* other : {"split", "strips", "without"}) line.exclude({"number_lines", other});
-  line.addChoice("las_version",
-                 "version of the LAS and LAZ files, which are written as a whole (default: that of "
-                 "the input, 1.4 from PCD); 1.5 has point formats 6 to 10 and its CRS as WKT",
-                 {"1.4", "1.5"})
-      .in(app::Group::output);
-  line.addWhole("time_offset",
-                "of LAS 1.5: store absolute times less this offset, e.g. 1500 for the years 2023 "
-                "to 2031 (default: 1000 as in LAS 1.4)",
-                std::nullopt, {0, 65535, "million s"})
-      .in(app::Group::output);
-  line.makeDependent("time_offset", "las_version");
-  line.addChoice("format", "format of the files in an output folder (default: as the input)",
-                 {"las", "laz", "pcd"})
-      .in(app::Group::output);
+  addFormatOptions(line);
   return line;
 }
 
 PointConversionOptions optionsOf(const CommandLine& line) {
   PointConversionOptions options;
   options.window = app::windowOf(line);
+  if (line.has("columns")) options.window.columns = splitList(line.text("columns"));
   options.strips = app::stripChoice(line);
   options.keep_ids = line.has("keep_ids");
   options.number_lines = line.has("number_lines");
@@ -85,6 +99,7 @@ PointConversionOptions optionsOf(const CommandLine& line) {
       options.las_version->time_offset = static_cast<std::uint16_t>(line.whole("time_offset"));
   }
   if (line.has("format")) options.format = line.text("format");
+  options.ascii_ply = line.has("ascii");
   options.threads = line.threads();
   return options;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/io/point_reader.h>
 
 #include "command_line.h"
 
@@ -15,7 +16,7 @@ Group usualGroup(Role role) {
     case Role::folder:
       return Group::output;
     default:
-      return Group::further;
+      return Group::others;
   }
 }
 
@@ -28,8 +29,10 @@ FolderFiles always(std::vector<std::string> names) {
 FolderFiles copiesOfInputs() {
   return [](const CommandLine& line) {
     std::vector<std::string> names;
-    for (const std::string& input : line.inputs())
+    for (const std::string& input : line.inputs()) {
+      requireCopyable(input);
       names.push_back(std::filesystem::path(input).filename().string());
+    }
     return std::optional(names);
   };
 }

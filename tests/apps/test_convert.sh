@@ -26,7 +26,7 @@ read -r west east south north < <("$bin/pcl_als_info" "$strip" |
   awk '/^  extent/ { gsub(",", ""); print $3, $5, $7, $9; exit }')
 middle=$(awk -v a="$west" -v b="$east" 'BEGIN { printf "%.3f", (a + b) / 2 }')
 expect 0 "points" convert "$strip" west.laz -bounds "$west,$south,$middle,$north"
-expect 0 "" info west.laz -json west.json
+expect 0 "" info west.laz -output west.json
 check "the part is smaller" test "$(stat -c %s west.laz)" -lt "$(stat -c %s packed.laz)"
 expect 2 "no point lies within the bounds; *covers by its header x " convert "$strip" none.laz -bounds 0,0,1,1
 absent none.laz
@@ -73,6 +73,42 @@ check "the ids are as they were" cmp kept/9.2.las tiles/t2.las
 expect 1 "-keep_ids needs -split" convert tiles/t*.las kept -keep_ids
 expect 1 "-number_lines and -split exclude each other" convert tiles/t*.las x -split -number_lines
 
+# PLY and text: the same points, in every column.
+points_of() { "$bin/pcl_als_convert" "$1" "$2" -quiet && grep -v '^#' "$2" >"$2.lines"; }
+expect 0 "points" convert "$strip" strip.ply
+expect 0 "points" convert "$strip" text.ply -ascii
+expect 0 "PLY binary_little_endian" info strip.ply
+expect 0 "PLY ascii" info text.ply
+check "points of LAS as text" points_of "$strip" las.xyz
+check "as many as there are" test "$(($(wc -l <las.xyz.lines) - 1))" -gt 1000
+for kind in strip.ply text.ply las.xyz; do
+  expect 0 "points" convert $kind "$kind.las"
+  check "points of $kind as text" points_of "$kind.las" "$kind.xyz"
+  check "LAS to $kind to LAS" cmp "$kind.xyz.lines" las.xyz.lines
+done
+expect 0 "points" convert strip.ply west.ply -bounds "$west,$south,$middle,$north"
+expect 0 "points" convert west.laz west_of_laz.xyz
+expect 0 "points" convert west.ply west_of_ply.xyz
+check "a part of a PLY" cmp <(grep -v '^#' west_of_laz.xyz) <(grep -v '^#' west_of_ply.xyz)
+expect 0 "lines3/1.ply" convert "$block"/strip*.las lines3 -split -format ply
+
+# Text of others: names of columns, no times, damage.
+printf 'x y z\n1 2 3\n4 5 6\n' >timeless.xyz
+printf '%s\n' '30 1000.5 2000.25 7' '31 1001.5 2001.25 8' >other.xyz
+expect 2 "other.xyz: line 1: there are 4 columns and no header line names them" convert other.xyz other.las
+expect 0 "points" convert other.xyz other.las -columns z,x,y,intensity
+expect 0 "every GPS time is zero" info other.las
+expect 0 "the points have no GPS time" info timeless.xyz
+expect 1 "columns of other.xyz: none of them is z" convert other.xyz x.las -columns x,y,skip,skip
+printf 'x y z\n1 2 3\n4 five 6\n' >damaged.xyz
+expect 2 "damaged.xyz: line 3: column y: 'five' is no number" convert damaged.xyz x.las
+head -c 5000 strip.ply >cut.ply
+expect 2 "cut.ply: the header declares" convert cut.ply x.las
+expect 2 "GPS time" calibrate timeless.xyz "$strip" -strips timeless -trajectory "$block/trajectory.csv" -output x.json
+expect 2 "of .ply files no corrected copies are written" apply strip.ply x.las -trajectory "$block/trajectory.csv" -bias range_bias=1
+expect 2 "of .ply files no corrected copies are written" intensity strip.ply -corrected copies -trajectory "$block/trajectory.csv"
+absent x.las x.json copies
+
 # Wrong usage; inputs stay as they are.
 expect 1 "usage: pcl_als_convert" convert "$strip"
 expect 1 "none of las, laz, pcd" convert "$strip" folder -format txt
@@ -85,7 +121,7 @@ check "the input is as it was" cmp "$strip" own.las
 expect 2 "there is no such file" convert missing.las out.las
 head -c 100000 packed.laz >cut.laz
 expect 2 "cut.laz: *; pcl_als_convert -keep_readable saves what is intact" convert cut.laz out.las
-expect 2 "-keep_readable" apply cut.laz out.las -trajectory "$block/trajectory.csv" -biases range_bias=1
+expect 2 "-keep_readable" apply cut.laz out.las -trajectory "$block/trajectory.csv" -bias range_bias=1
 
 # What is intact of a truncated or damaged file.
 expect 2 "cut.laz: none of its points can be read: " convert cut.laz out.las -keep_readable

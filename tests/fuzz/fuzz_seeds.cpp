@@ -146,6 +146,29 @@ std::vector<std::string> pcdSeeds() {
           binaryPcd("binary", records.str()), binaryPcd("binary_compressed", sizes + packed)};
 }
 
+std::vector<std::string> plySeeds() {
+  const std::string properties =
+      "comment pcl_als strip 7\nelement vertex 2\nproperty double x\nproperty double y\n"
+      "property double z\nproperty double gps_time\nproperty float intensity\n"
+      "property ushort point_source_id\nproperty uchar red\n";
+  Bytes records;
+  for (int i = 0; i < 2; ++i)
+    records.f64(583390.0).f64(5283100.0).f64(i).f64(230038.25).f32(7.0F).u16(7).u8(9);
+  const std::string camera = "element camera 2\nproperty short a\nproperty uint8 b\n";
+  return {"ply\nformat binary_little_endian 1.0\n" + properties + "end_header\n" + records.str(),
+          "ply\nformat ascii 1.0\n" + properties +
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+              "1 2 3 230038.25 7 1 2\n4.5 nan 6e0 230039 8 1 2\n3 0 1 0\n",
+          "ply\nformat binary_little_endian 1.0\n" + camera + properties + "end_header\nabcdef" +
+              records.str()};
+}
+
+std::vector<std::string> xyzSeeds() {
+  return {"x y z gps_time intensity point_source_id\n1 2 3 230038.25 7 1\n4.5 nan 6e0 230039 8 1\n",
+          "# pcl_als crs EPSG:32611\n//X,Y,Z,Class\n583390.125,5283100.5,3,2\n", "1 2 3\n\n4 5 6",
+          "x;y;z;user_data;skip\r\n1;2;3;255;word\r\n"};
+}
+
 std::vector<std::string> trajectorySeeds() {
   return {
       "time,x,y,z,roll,pitch,heading\n1.0,583394.5,5283100,1150,0.1,-0.2,359\n"

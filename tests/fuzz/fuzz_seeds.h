@@ -14,6 +14,8 @@ std::vector<std::string> lazSeeds();
 std::vector<std::string> lazChunkSeeds();
 std::vector<std::string> copcSeeds();
 std::vector<std::string> pcdSeeds();
+std::vector<std::string> plySeeds();
+std::vector<std::string> xyzSeeds();
 std::vector<std::string> trajectorySeeds();
 std::vector<std::string> sbetSeeds();
 std::vector<std::string> exportSeeds();

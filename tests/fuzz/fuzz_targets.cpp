@@ -104,6 +104,16 @@ void readPcd(const std::filesystem::path& path) {
   takeInventory({path});
 }
 
+/// Points of a text or packed format, and what is told of them.
+void readPoints(const std::filesystem::path& path) {
+  const auto reader = PointReader::open(path);
+  PointChunk chunk;
+  while (reader->read(chunk)) {
+  }
+  reader->remarks();
+  takeInventory({path});
+}
+
 /// A trajectory without its projection to a map, and with the names of its columns given.
 void readExport(const std::filesystem::path& path) {
   try {
@@ -142,6 +152,12 @@ bool copc(const std::uint8_t* data, std::size_t size) {
 }
 bool pcd(const std::uint8_t* data, std::size_t size) {
   return readAs(".pcd", data, size, readPcd);
+}
+bool ply(const std::uint8_t* data, std::size_t size) {
+  return readAs(".ply", data, size, readPoints);
+}
+bool xyz(const std::uint8_t* data, std::size_t size) {
+  return readAs(".xyz", data, size, readPoints);
 }
 bool trajectoryCsv(const std::uint8_t* data, std::size_t size) {
   return readAs(".csv", data, size, [](const auto& path) { readTrajectory(path); });
@@ -200,6 +216,8 @@ const std::vector<Target>& readerTargets() {
       {"laz_codec", lazCodec, lazChunkSeeds},
       {"copc", copc, copcSeeds},
       {"pcd", pcd, pcdSeeds},
+      {"ply", ply, plySeeds},
+      {"xyz", xyz, xyzSeeds},
       {"trajectory_csv", trajectoryCsv, trajectorySeeds},
       {"trajectory_export", trajectoryExport, exportSeeds},
       {"sbet", sbet, sbetSeeds},

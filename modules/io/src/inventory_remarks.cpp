@@ -18,6 +18,7 @@
 #include <pcl_als/las/unclaimed_bytes.h>
 
 #include "pcd_file.h"
+#include "xyz_file.h"
 
 namespace pcl_als::detail {
 namespace {
@@ -43,10 +44,16 @@ void remarkCount(Warnings& remarks, std::uint64_t part, std::uint64_t whole, con
 
 /// In which unit the first time of a file is recorded, which readers bring to seconds.
 double timeUnitsOf(const std::filesystem::path& path) {
-  if (lowerExtension(path) == ".pcd") {
+  const std::string extension = lowerExtension(path);
+  PointChunk first;
+  if (extension == ".xyz") {
+    XyzFile file(path, {}, "");
+    file.read(1, first);
+    return file.timeUnits();
+  }
+  if (extension == ".pcd" || extension == ".ply") {
     PcdFile file(path, "");
-    PointChunk chunk;
-    file.read(1, chunk);
+    file.read(1, first);
     return file.timeUnits();
   }
   const LasFile las(path, kLazAllFields, LasDamage::keep_intact);
@@ -77,7 +84,8 @@ void remarkTimes(const PointFileInfo& info, const PointStatistics& s, Warnings& 
     remarks.push_back("the times look like " + unix_time);
     return;
   }
-  if (lowerExtension(info.path) == ".pcd") return;  // declares none
+  const std::string extension = lowerExtension(info.path);
+  if (extension != ".las" && extension != ".laz") return;  // declares none
   const TimeScale declared =
       info.time_kind == TimeKind::week_seconds ? TimeScale::week : TimeScale::adjusted;
   const bool in_week = s.first_time >= 0.0 && s.last_time <= kLastWeekSecond;

@@ -8,8 +8,11 @@
 #include <limits>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/listed_names.h>
 #include <pcl_als/common/time_unit.h>
+
+#include "ply_header.h"
 
 namespace pcl_als::detail {
 namespace {
@@ -19,7 +22,8 @@ constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
 PcdHeader readHeader(const InputFile& file) {
   std::string text(std::min<std::uint64_t>(kLongestHeader, file.size()), '\0');
   file.read(0, text.size(), text.data());
-  return parsePcdHeader(text, file.size(), file.name());
+  return lowerExtension(file.name()) == ".ply" ? parsePlyHeader(text, file.size(), file.name())
+                                               : parsePcdHeader(text, file.size(), file.name());
 }
 
 template <typename T>
@@ -164,11 +168,13 @@ void PcdFile::checkFields() const {
   for (const char* axis : {"x", "y", "z"}) {
     const PcdField* field = header_.find(axis);
     if (field == nullptr || field->type != 'F')
-      throw InputError(file_.name() + ": the PCD has no field " + axis + " of type F");
+      throw InputError(file_.name() + ": the " + header_.kind + " has no field " + axis +
+                       " of type F");
   }
   const PcdField* time = header_.find("gps_time");
   if (time != nullptr && time->size != 8)
-    throw InputError(file_.name() + ": the PCD's gps_time is of " + std::to_string(time->size) +
+    throw InputError(file_.name() + ": the " + header_.kind + "'s gps_time is of " +
+                     std::to_string(time->size) +
                      " bytes, not of 8 (double); a float of week seconds has steps of 0.03 s, two "
                      "metres of flight");
   if (channel_field_.empty() || header_.named(channel_field_) != nullptr) return;
@@ -199,7 +205,7 @@ void PcdFile::readFirst() {
 }
 
 std::string PcdFile::timeFault() const {
-  if (!times_are_averages_) return {};
+  if (!times_are_averages_) return header_.time_fault;
   return "its GPS times are not used, they are averages of bytes: pcl_voxel_grid makes them of "
          "double fields; thin the original with pcl::VoxelGrid<PointLidar> or "
          "pcl::UniformSampling, which keep times";
@@ -219,7 +225,10 @@ std::vector<std::string> PcdFile::remarks() const {
                                "not added to the coordinates"
                              : "its VIEWPOINT is taken as the origin of the coordinates, from "
                                "which no sensor would see them");
-  if (times_are_averages_) remarks.push_back(timeFault());
+  if (!header_.other_elements.empty())
+    remarks.push_back("only its vertices are read, not its elements " +
+                      listedNames(header_.other_elements, kMostNamed));
+  if (!timeFault().empty()) remarks.push_back(timeFault());
   return remarks;
 }
 

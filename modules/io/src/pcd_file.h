@@ -15,14 +15,14 @@
 
 namespace pcl_als::detail {
 
-/// Packed records of a PCD file in file order, whichever of the three ways it stores them.
+/// Packed records of a file in file order, whichever of the three ways it stores them.
 class PcdRecords {
  public:
   virtual ~PcdRecords() = default;
   virtual void next(std::size_t count, std::byte* out) = 0;
 };
 
-/** \brief The points of a PCD file as columns, coordinates relative to origin().
+/** \brief The points of a PCD or PLY file as columns, coordinates relative to origin().
  *
  * Clouds of this library have their origin in VIEWPOINT. PCL defines VIEWPOINT as the pose of the
  * sensor, which is not added to the points of other files, unless it cannot be that: it is farther

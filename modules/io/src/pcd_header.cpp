@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <pcl_als/common/errors.h>
@@ -41,12 +42,54 @@ constexpr std::pair<const char*, const char*> kColumns[] = {
 /// So many: scan_angle has two names.
 constexpr std::size_t kColumnCount = std::size(kColumns) - 1;
 
-/// A name as it is compared: without case and underscores.
+/// A name as it is compared: without case and underscores, and without "scalar" before it.
 std::string plainName(const std::string& name) {
+  constexpr std::string_view kScalar = "scalar";
   std::string plain;
   for (const char c : name)
     if (c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return plain;
+  const bool prefixed = plain.size() > kScalar.size() && plain.rfind(kScalar, 0) == 0;
+  return prefixed ? plain.substr(kScalar.size()) : plain;
+}
+
+void checkField(const PcdHeader& header, const PcdField& field, const std::string& name) {
+  const std::string what = name + ": " + header.kind + " field " + field.name + ": ";
+  const bool real = field.type == 'F' && (field.size == 4 || field.size == 8);
+  const bool whole = (field.type == 'I' || field.type == 'U') &&
+                     (field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8);
+  if (!real && !whole)
+    throw InputError(what + "type " + std::string(1, field.type) + " of " +
+                     std::to_string(field.size) + " bytes is unknown");
+  if (field.count == 0 || field.count > kLargestRecord)
+    throw InputError(what + "its COUNT is " + std::to_string(field.count));
+}
+
+bool hasVeryName(const PcdHeader& header, const std::string& name) {
+  return std::any_of(header.fields.begin(), header.fields.end(),
+                     [&](const PcdField& field) { return field.name == name; });
+}
+
+/// A field with the very name of a column is that column, whatever others are called.
+void assignColumns(PcdHeader& header, const std::string& name) {
+  std::map<std::string, const PcdField*> holders;
+  for (PcdField& field : header.fields) {
+    const std::string column = pcdColumnOf(field.name);
+    if (column.empty() || (field.name != column && hasVeryName(header, column))) continue;
+    const auto [holder, first] = holders.emplace(column, &field);
+    if (!first)
+      throw InputError(name + ": the " + header.kind + "'s fields " + holder->second->name +
+                       " and " + field.name + " are the same by their names (" + column + ")");
+    field.column = column;
+  }
+  header.of_pcl_als =
+      header.of_pcl_als || (holders.size() == kColumnCount &&
+                            std::all_of(holders.begin(), holders.end(), [](const auto& holder) {
+                              return holder.first == holder.second->name;
+                            }));
+}
+
+void takeComment(const std::string& line, const std::string& key, std::string& value) {
+  if (line.rfind(key, 0) == 0) value = line.substr(key.size());
 }
 
 /// Goes through the header's lines; one member per key word.
@@ -74,11 +117,7 @@ class HeaderParser {
   [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
 
   void takeLine(const std::string& line) {
-    takeComment(line, kPcdCrsComment, header_.crs);
-    takeComment(line, kPcdStripComment, header_.strip_id);
-    header_.strip_id = printable(header_.strip_id);  // is shown, and names files
-    takeComment(line, kPcdCorrectionsComment, header_.corrections);
-    header_.of_pcl_als = header_.of_pcl_als || line.rfind(kPcdComment, 0) == 0;
+    takePcdComment(line, header_);
     if (line.empty() || line[0] == '#') return;
     std::istringstream stream(line);
     std::string key;
@@ -86,10 +125,6 @@ class HeaderParser {
     std::vector<std::string> values;
     for (std::string value; stream >> value;) values.push_back(value);
     takeEntry(key, values);
-  }
-
-  static void takeComment(const std::string& line, const std::string& key, std::string& value) {
-    if (line.rfind(key, 0) == 0) value = line.substr(key.size());
   }
 
   void takeEntry(const std::string& key, const std::vector<std::string>& values) {
@@ -163,52 +198,11 @@ class HeaderParser {
     complete_ = true;
   }
 
-  void checkField(const PcdField& field) const {
-    const bool real = field.type == 'F' && (field.size == 4 || field.size == 8);
-    const bool whole = (field.type == 'I' || field.type == 'U') &&
-                       (field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8);
-    if (!real && !whole)
-      fail("PCD field " + field.name + ": type " + std::string(1, field.type) + " of " +
-           std::to_string(field.size) + " bytes is unknown");
-    if (field.count == 0 || field.count > kLargestRecord)
-      fail("PCD field " + field.name + ": its COUNT is " + std::to_string(field.count));
-  }
-
-  bool hasVeryName(const std::string& name) const {
-    return std::any_of(header_.fields.begin(), header_.fields.end(),
-                       [&](const PcdField& field) { return field.name == name; });
-  }
-
-  /// A field with the very name of a column is that column, whatever others are called.
-  void assignColumns() {
-    std::map<std::string, const PcdField*> holders;
-    for (PcdField& field : header_.fields) {
-      const std::string column = pcdColumnOf(field.name);
-      if (column.empty() || (field.name != column && hasVeryName(column))) continue;
-      const auto [holder, first] = holders.emplace(column, &field);
-      if (!first)
-        fail("the PCD's fields " + holder->second->name + " and " + field.name +
-             " are the same by their names (" + column + ")");
-      field.column = column;
-    }
-    header_.of_pcl_als =
-        header_.of_pcl_als || (holders.size() == kColumnCount &&
-                               std::all_of(holders.begin(), holders.end(), [](const auto& holder) {
-                                 return holder.first == holder.second->name;
-                               }));
-    if (header_.of_pcl_als && header_.rotated)
-      fail("the PCD's VIEWPOINT is rotated; only a shift (… 1 0 0 0) can be the origin of a cloud");
-  }
-
   void finish() {
     if (header_.fields.empty()) fail("the PCD header has no FIELDS line");
-    assignColumns();
-    for (PcdField& field : header_.fields) {
-      checkField(field);
-      field.offset = header_.record_length;
-      header_.record_length += field.size * field.count;
-      if (header_.record_length > kLargestRecord) fail("the PCD's records are too long");
-    }
+    layOutPcdFields(header_, name_);
+    if (header_.of_pcl_als && header_.rotated)
+      fail("the PCD's VIEWPOINT is rotated; only a shift (… 1 0 0 0) can be the origin of a cloud");
     if (!points_ && !(width_ && height_))
       fail("the PCD header does not say how many points there are");
     if (width_ && height_) {
@@ -218,19 +212,7 @@ class HeaderParser {
         fail("the PCD header's POINTS differ from WIDTH times HEIGHT");
     }
     header_.points = points_ ? *points_ : *width_ * *height_;
-    checkRoom();
-  }
-
-  void checkRoom() const {
-    const std::uint64_t room = file_size_ - std::min(file_size_, header_.data_position);
-    if (header_.data == PcdData::binary_compressed) return;  // its own sizes are checked later
-    // An ASCII record has at least a digit and a separator per field; the last one may be missing.
-    const bool ascii = header_.data == PcdData::ascii;
-    const std::uint64_t most =
-        ascii ? (room + 1) / (2 * header_.fields.size()) : room / header_.record_length;
-    if (header_.points > most)
-      fail("the header declares " + std::to_string(header_.points) +
-           " points but the file can hold at most " + std::to_string(most) + " (truncated copy?)");
+    checkPcdRoom(header_, file_size_, name_);
   }
 
   const std::string& text_;
@@ -242,6 +224,38 @@ class HeaderParser {
 };
 
 }  // namespace
+
+void takePcdComment(const std::string& line, PcdHeader& header) {
+  takeComment(line, kPcdCrsComment, header.crs);
+  takeComment(line, kPcdStripComment, header.strip_id);
+  header.strip_id = printable(header.strip_id);  // is shown, and names files
+  takeComment(line, kPcdCorrectionsComment, header.corrections);
+  header.of_pcl_als = header.of_pcl_als || line.rfind(kPcdComment, 0) == 0;
+}
+
+void layOutPcdFields(PcdHeader& header, const std::string& name) {
+  assignColumns(header, name);
+  for (PcdField& field : header.fields) {
+    checkField(header, field, name);
+    field.offset = header.record_length;
+    header.record_length += field.size * field.count;
+    if (header.record_length > kLargestRecord)
+      throw InputError(name + ": the " + header.kind + "'s records are too long");
+  }
+}
+
+void checkPcdRoom(const PcdHeader& header, std::uint64_t file_size, const std::string& name) {
+  const std::uint64_t room = file_size - std::min(file_size, header.data_position);
+  if (header.data == PcdData::binary_compressed) return;  // its own sizes are checked later
+  // An ASCII record has at least a digit and a separator per field; the last one may be missing.
+  const bool ascii = header.data == PcdData::ascii;
+  const std::uint64_t most =
+      ascii ? (room + 1) / (2 * header.fields.size()) : room / header.record_length;
+  if (header.points > most)
+    throw InputError(name + ": the header declares " + std::to_string(header.points) +
+                     " points but the file can hold at most " + std::to_string(most) +
+                     " (truncated copy?)");
+}
 
 const PcdField* PcdHeader::find(const std::string& column) const {
   const auto field = std::find_if(fields.begin(), fields.end(),
@@ -285,6 +299,7 @@ std::string pcdColumnOf(const std::string& field) {
 
 const char* PcdHeader::dataName() const {
   if (data == PcdData::ascii) return "ascii";
+  if (kind != std::string_view("PCD")) return "binary_little_endian";
   return data == PcdData::binary ? "binary" : "binary_compressed";
 }
 

@@ -22,8 +22,12 @@ struct PcdField {
   std::size_t offset = 0;  ///< in the packed record
 };
 
-/// The header of a PCD file, checked against the file's size.
+/** \brief The header of a file of points as packed records, checked against the file's size.
+ *
+ * It is that of a PCD file, or of a PLY file (parsePlyHeader()), whose vertices are such records.
+ */
 struct PcdHeader {
+  const char* kind = "PCD";  ///< or "PLY"
   std::vector<PcdField> fields;
   std::size_t record_length = 0;  ///< bytes of a packed record
   std::uint64_t points = 0;
@@ -35,6 +39,8 @@ struct PcdHeader {
   PcdData data = PcdData::ascii;
   std::uint64_t data_position = 0;
   std::string crs, strip_id, corrections;  ///< from our comment lines; empty without
+  std::string time_fault;  ///< PointFileInfo::time_fault, of what the header states; may be empty
+  std::vector<std::string> other_elements;  ///< of a PLY, besides the vertices
 
   /// The field that is a column of PointLidar; null when there is none.
   const PcdField* find(const std::string& column) const;
@@ -58,9 +64,18 @@ inline constexpr const char* kPcdCorrectionsComment = "# pcl_als corrections ";
 
 /** \brief The column of PointLidar that a field holds by its name; empty where it is none.
  *
- * Case and underscores do not count, as other writers have them: PDAL "GpsTime", lasR "gpstime".
+ * Case, underscores and a "scalar_" before the name do not count, as other writers have them: PDAL
+ * "GpsTime", lasR "gpstime", CloudCompare "scalar_GpsTime".
  */
 std::string pcdColumnOf(const std::string& field);
+
+/// Takes a comment line of this library, "# pcl_als …", into a header.
+void takePcdComment(const std::string& line, PcdHeader& header);
+/// Checks the fields of a header, and sets their columns and offsets and the length of a record.
+/// InputError: "NAME: …".
+void layOutPcdFields(PcdHeader& header, const std::string& name);
+/// InputError for more points than fit into the file.
+void checkPcdRoom(const PcdHeader& header, std::uint64_t file_size, const std::string& name);
 
 /// Parses the header lines at the beginning of \a text. InputError: "NAME: …".
 PcdHeader parsePcdHeader(const std::string& text, std::uint64_t file_size, const std::string& name);

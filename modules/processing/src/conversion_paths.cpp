@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 /// Whether a name is that of a file of points, also in a format that is not written.
 bool isPointFileName(const fs::path& path) {
-  static const std::set<std::string> kOthers = {".asc", ".csv", ".e57", ".ply", ".pts",
-                                                ".ptx", ".txt", ".xyz", ".zlas"};
+  static const std::set<std::string> kOthers = {".asc", ".csv", ".e57", ".pts",
+                                                ".ptx", ".txt", ".zlas"};
   return isPointFile(path) || kOthers.count(lowerExtension(path)) != 0;
 }
 
@@ -35,13 +35,13 @@ std::string stemOf(const fs::path& path) {
   return isCopcName(path) ? path.stem().stem().string() : path.stem().string();
 }
 
-/// ".las", ".laz" or ".pcd" of a file in a folder.
+/// One of kPointExtensions, of a file in a folder.
 std::string extensionFor(const fs::path& input, const std::string& format) {
   const std::string extension = format.empty() ? lowerExtension(input) : "." + format;
   if (isPointExtension(extension)) return extension;
   if (format.empty())
-    throw InputError(input.string() + ": is no point file by its name (.las, .laz or .pcd)");
-  throw UsageError("point format '" + format + "' is none of las, laz, pcd");
+    throw InputError(input.string() + ": is no point file by its name (" + kPointExtensions + ")");
+  throw UsageError("point format '" + format + "' is none of las, laz, pcd, ply, xyz");
 }
 
 void makeFolder(const fs::path& folder) {
@@ -91,7 +91,7 @@ std::vector<fs::path> outputPaths(const std::vector<fs::path>& inputs, const fs:
   }
   const std::string extension = lowerExtension(output);
   if (!isPointExtension(extension))
-    throw UsageError(output.string() + ": is no point file by its name (.las, .laz or .pcd)");
+    throw UsageError(output.string() + ": is no point file by its name (" + kPointExtensions + ")");
   if (inputs.size() != 1)
     throw UsageError(output.string() + ": is one file; several inputs need a folder");
   if (!format.empty() && extension != "." + format)

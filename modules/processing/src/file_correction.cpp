@@ -373,10 +373,10 @@ FileCorrectionResult correctPointFile(const fs::path& input, const fs::path& out
                                       const CalibrationResult& calibration, Flight flight,
                                       const FileCorrectionOptions& options,
                                       const ProgressCallback& progress) {
+  requireCopyable(input);
   const bool pcd_in = lowerExtension(input) == ".pcd", pcd_out = lowerExtension(output) == ".pcd";
-  if (pcd_in != pcd_out) {
+  if (pcd_in != pcd_out)
     throw UsageError(output.string() + ": input and output must be of one kind, .las/.laz or .pcd");
-  }
   if (!flight) throw UsageError("correction of " + input.string() + ": no trajectory is given");
   if (options.uncertainty && pcd_in)
     throw UsageError(input.string() + ": standard deviations are written to .las and .laz only");

@@ -76,6 +76,7 @@ MovedFile movePcd(const fs::path& input, const fs::path& output, const RigidMoti
 }  // namespace
 
 void checkMovable(const fs::path& input, const fs::path& output) {
+  requireCopyable(input);
   if ((lowerExtension(input) == ".pcd") != (lowerExtension(output) == ".pcd"))
     throw UsageError(output.string() +
                      ": source and output must be of one kind, .las/.laz or .pcd");

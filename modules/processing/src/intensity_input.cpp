@@ -286,6 +286,7 @@ class LasInput : public IntensityInput {
 
 std::unique_ptr<IntensityInput> IntensityInput::open(const std::string& path,
                                                      const Options& options) {
+  requireCopyable(path);
   const std::string extension = lowerExtension(path);
   if (extension == ".pcd") return openIntensityPcd(path, options);
   if (extension == ".las" || extension == ".laz") return std::make_unique<LasInput>(path, options);

@@ -19,7 +19,7 @@ std::string extraFieldNames(const std::vector<SurveyedFile>& files) {
   std::string names;
   for (const SurveyedFile& file : files) {
     const PointFileInfo& info = file.sources.info;
-    if (info.format.rfind("PCD", 0) == 0) continue;
+    if (info.format.rfind("LA", 0) != 0) continue;  // LAS and LAZ only
     const LasFile las(info.path);
     for (const LasExtraField& field : las.extraFields()) {
       if ((" " + names + ",").find(" " + field.name + ",") != std::string::npos) continue;

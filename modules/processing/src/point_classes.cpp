@@ -156,7 +156,8 @@ void PointClasses::classify(const PointChunk& points, const Group& group,
 PointClassCounts classifyPointFile(const std::filesystem::path& input,
                                    const std::filesystem::path& output, PointClasses& classes,
                                    const SurveyReader& survey, std::size_t place, int threads) {
-  if (input.extension() == ".pcd") return classifyPcd(input, output, classes, survey, place);
+  requireCopyable(input);
+  if (lowerExtension(input) == ".pcd") return classifyPcd(input, output, classes, survey, place);
   const LasFile file(input);
   std::atomic<std::uint64_t> unclassified{0};
   const LasEdit edit = [&](const LasRecordBlock& block) {

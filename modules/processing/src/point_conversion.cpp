@@ -78,7 +78,7 @@ class Source {
   /// What the points lose in a file of that name; empty: nothing.
   std::string lossIn(const fs::path& output) const {
     if (las_ == nullptr || detail::isLas(output)) return {};
-    return detail::fieldsWithoutColumn(las_->file());
+    return detail::fieldsWithoutColumn(las_->file(), output);
   }
 
  private:
@@ -314,7 +314,7 @@ class Conversion {
   }
 
   static bool triesHeader(const Target& target) {
-    return target.box.isEmpty() && !detail::isLas(target.path);
+    return target.box.isEmpty() && detail::isPcd(target.path);
   }
 
   /// The points of a PCD are relative to the middle of the box that it was opened with.
@@ -344,7 +344,7 @@ class Conversion {
       target.sink =
           detail::openSink(target.path, inputs_[file], info,
                            {records_, options_.window.keep_readable, target.strip, options_.threads,
-                            options_.las_version.value_or(LasVersion())});
+                            options_.las_version.value_or(LasVersion()), options_.ascii_ply});
       target.origin = 0.5 * (info.minimum + info.maximum);
       const std::string loss = source.lossIn(target.path);
       if (!loss.empty()) remarkOnce(loss);

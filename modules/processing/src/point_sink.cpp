@@ -5,6 +5,7 @@
 #include <array>
 
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/io/exchange_writer.h>
 #include <pcl_als/io/new_las_file.h>
 #include <pcl_als/io/pcd_writer.h>
 #include <pcl_als/las/las_selection.h>
@@ -121,7 +122,27 @@ class PcdSink : public PointSink {
   PcdWriter writer_;
 };
 
+/// Columns into a PLY or XYZ file.
+class ExchangeSink : public PointSink {
+ public:
+  ExchangeSink(const fs::path& path, const PointFileInfo& info, const SinkOptions& options)
+      : writer_(path, info, {options.strip, options.ascii_ply}) {}
+
+  void append(const PointBlock& block, std::size_t from, std::size_t to) override {
+    writer_.append(block.chunk, from, to);
+  }
+  std::uint64_t pointCount() const override { return writer_.pointCount(); }
+  void finish() override { writer_.finish(); }
+
+ private:
+  ExchangeWriter writer_;
+};
+
 }  // namespace
+
+bool isPcd(const fs::path& path) {
+  return lowerExtension(path) == ".pcd";
+}
 
 bool isLas(const fs::path& path) {
   const std::string extension = lowerExtension(path);
@@ -130,12 +151,13 @@ bool isLas(const fs::path& path) {
 
 std::unique_ptr<PointSink> openSink(const fs::path& path, const fs::path& first,
                                     const PointFileInfo& info, const SinkOptions& options) {
-  if (!isLas(path)) return std::make_unique<PcdSink>(path, info, options.strip);
+  if (isPcd(path)) return std::make_unique<PcdSink>(path, info, options.strip);
+  if (!isLas(path)) return std::make_unique<ExchangeSink>(path, info, options);
   if (options.records) return std::make_unique<RecordSink>(path, first, options);
   return std::make_unique<ColumnSink>(path, info, options.las_version);
 }
 
-std::string fieldsWithoutColumn(const LasFile& file) {
+std::string fieldsWithoutColumn(const LasFile& file, const fs::path& output) {
   std::string names;
   const LasRecordLayout& layout = file.layout();
   const auto add = [&names](bool lost, const std::string& name) {
@@ -148,7 +170,7 @@ std::string fieldsWithoutColumn(const LasFile& file) {
   const UnclaimedBytes unclaimed = unclaimedBytes(file);
   add(unclaimed.any(), unclaimed.describe());
   if (names.empty()) return names;
-  return file.path().string() + ": a PCD does not store " + names;
+  return file.path().string() + ": a " + lowerExtension(output) + " file does not store " + names;
 }
 
 }  // namespace pcl_als::detail

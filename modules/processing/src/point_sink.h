@@ -40,6 +40,7 @@ struct SinkOptions {
   std::string strip;           ///< name of the strip of all points; empty: several, or not known
   int threads = 0;
   LasVersion las_version{};  ///< of a LAS file without raw records
+  bool ascii_ply = false;
 };
 
 /// The output at a path, by its extension, for points like those of \a first, the first file that
@@ -51,7 +52,11 @@ std::unique_ptr<PointSink> openSink(const std::filesystem::path& path,
 /// Whether a file is LAS or LAZ by its name.
 bool isLas(const std::filesystem::path& path);
 
-/// Fields of a LAS file that are lost in a PCD, as a remark; empty where there are none.
-std::string fieldsWithoutColumn(const LasFile& file);
+/// Whether a file is a PCD by its name.
+bool isPcd(const std::filesystem::path& path);
+
+/// Fields of a LAS file that are lost in a file of another format, as a remark; empty where there
+/// are none.
+std::string fieldsWithoutColumn(const LasFile& file, const std::filesystem::path& output);
 
 }  // namespace pcl_als::detail

@@ -938,6 +938,11 @@ class PointWindow:
     @channel_field.setter
     def channel_field(self, value: str) -> None: ...
     @property
+    def columns(self) -> list[str]:
+        """columns of .xyz files in their order, 'skip': not used; empty: by the header"""
+    @columns.setter
+    def columns(self, value: Iterable[str]) -> None: ...
+    @property
     def keep_readable(self) -> bool:
         """read what is intact of damaged LAS and LAZ files"""
     @keep_readable.setter
@@ -1272,14 +1277,15 @@ def classify(files: Union[_Path, Iterable[_Path]], output: _Path, *, training: O
     UsageError for impossible options, InputError for input that cannot be used."""
 
 def convert(inputs: Union[_Path, Iterable[_Path]], output: _Path, *, window: PointWindow = ..., strips: Union[StripChoice, Iterable[str]] = ..., format: str = '', keep_ids: bool = False, number_lines: bool = False, las_version: str = '', time_offset: Optional[int] = None, threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> list[ConvertedFile]:
-    """Converts .las, .laz and .pcd files into each other, or writes parts of them; the bytes of
-    LAS records stay as they are. output: a file for one input, else a folder, whose files have
-    the given format ('las', 'laz', 'pcd'; default: that of the input). With strips.split one
-    file for each strip, whose lines get point source ids of their own unless keep_ids is set.
-    number_lines: the files as they are, with the number of its line as the point source id of
-    each point (0 between lines). las_version: '1.4' or '1.5', of whole files; time_offset: of
-    LAS 1.5, millions of seconds that are subtracted from GPS time. UsageError for number_lines
-    or las_version with a choice of strips. Constant memory."""
+    """Converts point files (.las, .laz, .pcd, .ply, .xyz) into each other, or writes parts of
+    them; the bytes of LAS records stay as they are. output: a file for one input, else a
+    folder, whose files have the given format ('las', 'laz', 'pcd', 'ply', 'xyz'; default: that
+    of the input). With strips.split one file for each strip, whose lines get point source ids
+    of their own unless keep_ids is set. number_lines: the files as they are, with the number of
+    its line as the point source id of each point (0 between lines). las_version: '1.4' or
+    '1.5', of whole files; time_offset: of LAS 1.5, millions of seconds that are subtracted from
+    GPS time. UsageError for number_lines or las_version with a choice of strips. Constant
+    memory."""
 
 def convert_trajectory(paths: Union[_Path, Iterable[_Path]], output: _Path, *, calibration: Optional[Union[_Path, CalibrationResult]] = None, crs: str = '', strip_corrections: bool = True, force: bool = False, progress: Optional[Callable[[Progress], Any]] = None) -> list[pathlib.Path]:
     """Reads trajectory files, takes lever arm and strip corrections of a calibration out, and
@@ -1344,11 +1350,12 @@ def read_control(path: _Path) -> list[ControlPoint]:
     """Reads control points from CSV with columns id, x, y, z and optionally sigma, m."""
 
 def read_strips(files: Union[_Path, Iterable[_Path]], *, extra: Union[bool, Iterable[str]] = False, bounds: Optional[Iterable[float]] = None, window: PointWindow = ...) -> list[Strip]:
-    """Reads .las, .laz and .pcd files whole, as strips: 48 bytes a point. A strip that reaches
-    further than 4 km from its centre comes in parts of the same id. extra: True or names, for
-    colours (red, green, blue, nir) and extra bytes of LAS files as Strip.extra; bounds: x_min,
-    y_min, x_max, y_max in the ground frame, m, of the points that are read; window: more of
-    that kind. InputError for files that cannot be read or that do not belong together."""
+    """Reads .las, .laz, .pcd, .ply and .xyz files whole, as strips: 48 bytes a point. A strip
+    that reaches further than 4 km from its centre comes in parts of the same id. extra: True or
+    names, for colours (red, green, blue, nir) and extra bytes of LAS files as Strip.extra;
+    bounds: x_min, y_min, x_max, y_max in the ground frame, m, of the points that are read;
+    window: more of that kind. InputError for files that cannot be read or that do not belong
+    together."""
 
 def read_trajectory(paths: Union[_Path, Iterable[_Path]], *, crs: str = '', own_crs: str = '', attitude: str = 'where_given', columns: Iterable[str] = [], leap_seconds: Optional[float] = None, geoid: str = '', axes: str = 'by_course') -> Flight:
     """Reads a trajectory from a file, several files or a folder: text with named columns, SBET,

@@ -67,9 +67,9 @@ void bindStripFiles(py::module_& m) {
   m.def("read_strips", &readStrips, py::arg("files"), py::kw_only(),
         py::arg("extra") = ExtraArgument(false), py::arg("bounds") = py::none(),
         py::arg_v("window", PointWindow(), "PointWindow()"),
-        "Reads .las, .laz and .pcd files whole, as strips: 48 bytes a point. A strip that reaches "
-        "further than 4 km from its centre comes in parts of the same id. extra: True or names, "
-        "for colours (red, green, blue, nir) and extra bytes of LAS files as "
+        "Reads .las, .laz, .pcd, .ply and .xyz files whole, as strips: 48 bytes a point. A strip "
+        "that reaches further than 4 km from its centre comes in parts of the same id. extra: "
+        "True or names, for colours (red, green, blue, nir) and extra bytes of LAS files as "
         "Strip.extra; bounds: x_min, y_min, x_max, y_max in the ground frame, m, of the points "
         "that are read; window: more of that kind. InputError for files that cannot be read or "
         "that do not belong together.");
@@ -123,14 +123,15 @@ void bindFiles(py::module_& m) {
       py::arg_v("strips", StripChoice(), "StripChoice()"), py::arg("format") = "",
       py::arg("keep_ids") = false, py::arg("number_lines") = false, py::arg("las_version") = "",
       py::arg("time_offset") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
-      "Converts .las, .laz and .pcd files into each other, or writes parts of them; the bytes of "
-      "LAS records stay as they are. output: a file for one input, else a folder, whose files have "
-      "the given format ('las', 'laz', 'pcd'; default: that of the input). With strips.split one "
-      "file for each strip, whose lines get point source ids of their own unless keep_ids is set. "
-      "number_lines: the files as they are, with the number of its line as the point source id of "
-      "each point (0 between lines). las_version: '1.4' or '1.5', of whole files; time_offset: of "
-      "LAS 1.5, millions of seconds that are subtracted from GPS time. UsageError for number_lines "
-      "or las_version with a choice of strips. Constant memory.");
+      "Converts point files (.las, .laz, .pcd, .ply, .xyz) into each other, or writes parts of "
+      "them; the bytes of LAS records stay as they are. output: a file for one input, else a "
+      "folder, whose files have the given format ('las', 'laz', 'pcd', 'ply', 'xyz'; default: "
+      "that of the input). With strips.split one file for each strip, whose lines get point "
+      "source ids of their own unless keep_ids is set. number_lines: the files as they are, with "
+      "the number of its line as the point source id of each point (0 between lines). "
+      "las_version: '1.4' or '1.5', of whole files; time_offset: of LAS 1.5, millions of seconds "
+      "that are subtracted from GPS time. UsageError for number_lines or las_version with a "
+      "choice of strips. Constant memory.");
 }
 
 }  // namespace pcl_als::python

@@ -36,7 +36,10 @@ void bindChoices(py::module_& m) {
       .def_readwrite("keep_readable", &PointWindow::keep_readable,
                      "read what is intact of damaged LAS and LAZ files")
       .def_readwrite("channel_field", &PointWindow::channel_field,
-                     "field with the channel of the scanner: 'user_data' or an extra field");
+                     "field with the channel of the scanner: 'user_data' or an extra field")
+      .def_readwrite(
+          "columns", &PointWindow::columns,
+          "columns of .xyz files in their order, 'skip': not used; empty: by the header");
   py::class_<StripChoice>(m, "StripChoice",
                           "Choice of the strips that are used; a list of names does as well.")
       .def(fromKeywords<StripChoice>())

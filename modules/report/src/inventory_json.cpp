@@ -96,7 +96,7 @@ Json fileJson(const FileInventory& file) {
   json["coordinate_steps"] = vector(file.steps);
   json["header_minimum"] = vector(file.info.minimum);
   json["header_maximum"] = vector(file.info.maximum);
-  if (file.info.format.rfind("PCD", 0) != 0) json["las"] = lasParts(file.info.path);
+  if (file.info.format.rfind("LA", 0) == 0) json["las"] = lasParts(file.info.path);
   json["statistics"] = statistics(file.statistics);
   json["remarks"] = textsOf(file.remarks);
   return json;

@@ -141,7 +141,7 @@ std::string fileText(const FileInventory& file) {
   if (info.crs.size() > kLongestCrs) crs += " …";
   std::string text = info.path.string() + '\n';
   text += entry("format", info.format);
-  if (info.format.rfind("PCD", 0) != 0) text += lasText(info.path);
+  if (info.format.rfind("LA", 0) == 0) text += lasText(info.path);
   text += entry("points", grouped(s.points));
   text += entry("CRS", crs + (info.crs_ignored.empty() ? "" : "; " + info.crs_ignored));
   if (!info.crs.empty() && !describeCrs(info.crs).name.empty())

@@ -8,7 +8,9 @@
 
 namespace pcl_als {
 
-/// Whether points are read and written under this extension: ".las", ".laz" or ".pcd".
+/// The extensions of point files: ".las, .laz, .pcd, .ply or .xyz".
+inline constexpr const char* kPointExtensions = ".las, .laz, .pcd, .ply or .xyz";
+/// Whether points are read and written under this extension, one of kPointExtensions.
 bool isPointExtension(const std::string& extension);
 /// Whether a file is a point file by its name, in upper or lower case.
 bool isPointFile(const std::filesystem::path& file);

@@ -19,11 +19,15 @@ namespace pcl_als {
 /// UsageError where a job is given no point file at all.
 void requirePointFiles(std::size_t count);
 
-/** \brief Reads the points of a .las, .laz or .pcd file chunk by chunk, in file order, in constant
- * memory.
+/// InputError for a file that can be read but of which no corrected copy can be written, .ply and
+/// .xyz: it must be converted first.
+void requireCopyable(const std::filesystem::path& file);
+
+/** \brief Reads the points of a point file (kPointExtensions) chunk by chunk, in file order, in
+ * constant memory.
  *
  * Coordinates are brought to metres from the unit that the file states (PointFileInfo::units); the
- * coordinates of a PCD are metres.
+ * coordinates of PCD, PLY and XYZ files are metres.
  *
  * Everything that is wrong with the file is an InputError that names file, what is wrong and what
  * to do.

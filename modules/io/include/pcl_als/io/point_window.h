@@ -31,6 +31,8 @@ struct PointWindow {
   std::string channel_field;
   /// Extra-bytes field of .las and .laz whose values are PointChunk::extra; empty: none.
   std::string extra_field;
+  /// Columns of .xyz files in their order ("skip": not used); empty: as their header names them.
+  std::vector<std::string> columns;
 
   /// Whether all points are read and damaged files are refused.
   bool everything() const { return !bounds && !(resolution > 0.0) && !keep_readable; }

@@ -21,8 +21,8 @@ struct PointConversionOptions {
   /// Strips whose points are written, those of the points in the window. With StripChoice::split
   /// one file for each strip.
   StripChoice strips;
-  /// "las", "laz" or "pcd" of the files in an output folder; empty: that of each input, with
-  /// StripChoice::split of the first one.
+  /// "las", "laz", "pcd", "ply" or "xyz" of the files in an output folder; empty: that of each
+  /// input, with StripChoice::split of the first one.
   std::string format;
   /// With StripChoice::split: points keep their point source ids. Otherwise points of id 7 keep it
   /// where they are one line, and other lines get the numbers from 1 that no strip has, so that the
@@ -31,10 +31,12 @@ struct PointConversionOptions {
   /// Without StripChoice::split: the points of every file are written, with these numbers of their
   /// lines; those between lines get 0. For tiles with wrong ids.
   bool number_lines = false;
-  /// Version of LAS files that are written; empty: that of the input, 1.4 from PCD. Of LAS files
-  /// the whole files are converted (convertLasVersion()): no window and no strips then.
+  /// Version of LAS files that are written; empty: that of the input, 1.4 from files that are no
+  /// LAS. Of LAS files the whole files are converted (convertLasVersion()): no window and no strips
+  /// then.
   std::optional<LasVersion> las_version;
-  int threads = 0;  ///< 0: all cores; the result does not depend on it
+  bool ascii_ply = false;  ///< PLY files are text
+  int threads = 0;         ///< 0: all cores; the result does not depend on it
 };
 
 struct PointConversionResult {
@@ -47,15 +49,17 @@ struct PointConversionResult {
   std::vector<std::string> remarks;  ///< values that a format does not store, files without points
 };
 
-/** \brief Converts .las, .laz and .pcd files into each other, or writes parts of them.
+/** \brief Converts point files (kPointExtensions) into each other, or writes parts of them.
  *
  * - LAS and LAZ to LAS or LAZ: the records as they are, in their order, with every other byte of
  *   the file. Of a part, the counts and the bounding box of the header are those of its points.
  *   LAS -> LAZ -> LAS gives the same bytes. Records that describe the compression of the input
  *   (laszip, COPC) are replaced or left out.
  * - to PCD: the fields of PointLidar, in metres, relative to the centre of the points (PcdWriter).
+ * - to PLY and XYZ: the fields of PointLidar with coordinates in metres and double
+ * (ExchangeWriter).
  * - LAS and LAZ to another version of LAS (convertLasVersion()).
- * - PCD to LAS or LAZ: point format 6, steps of 0.001 in the unit of the CRS.
+ * - PCD, PLY and XYZ to LAS or LAZ: point format 6, steps of 0.001 in the unit of the CRS.
  *
  * Points are streamed: memory does not grow with the files, except for compressed PCD.
  *
