@@ -19,7 +19,7 @@ declare -A may=(
   [common]="" [adjustment]="common" [crs]="common" [las]="common crs" [io]="common crs las" [trajectory]="common adjustment"
   [survey]="common io trajectory" [tin]="common" [registration]="common adjustment tin"
   [calibration]="common adjustment io trajectory survey tin registration" [radiometry]="common adjustment trajectory tin"
-  [photogrammetry]="common adjustment tin"
+  [photogrammetry]="common adjustment tin" [waveform]="common adjustment las io"
   [filters]="common las trajectory tin radiometry"
   [classification]="common tin" [quality]="common adjustment tin registration trajectory"
   [history]="common io"
