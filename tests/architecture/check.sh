@@ -23,7 +23,7 @@ declare -A may=(
   [filters]="common las trajectory tin radiometry"
   [classification]="common tin" [quality]="common adjustment tin registration trajectory"
   [history]="common io"
-  [processing]="common io trajectory survey registration calibration radiometry filters quality classification photogrammetry drawing simulation"
+  [processing]="common io trajectory survey registration calibration radiometry filters quality classification photogrammetry drawing simulation waveform"
   [report]="common io survey registration calibration radiometry quality history photogrammetry classification processing drawing"
   [simulation]="common" [mpi]="common" [drawing]="common io" [visualization]="common drawing"
   [python]="common io survey trajectory registration calibration radiometry filters quality classification photogrammetry simulation processing report"

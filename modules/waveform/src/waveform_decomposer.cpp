@@ -41,16 +41,17 @@ struct WaveformDecomposer::State {
   State(PulseResponse given, const DecompositionSettings& wanted)
       : response(std::move(given)), settings(wanted), search(response, settings) {}
 
-  /// Marks saturated and clipped samples. \return their number
-  int markBounds(const double* counts, std::size_t samples) {
-    int marked = 0;
+  /// Marks and counts saturated and clipped samples.
+  void markBounds(const double* counts, std::size_t samples, Decomposition& result) {
+    result.saturated = result.clipped = 0;
     bound.resize(samples);
     for (std::size_t i = 0; i < samples; ++i) {
-      const bool high = counts[i] >= settings.saturation, low = counts[i] <= settings.clipping;
-      bound[i] = static_cast<signed char>((high ? 1 : 0) - (low ? 1 : 0));
-      marked += bound[i] != 0 ? 1 : 0;
+      const int high = counts[i] >= settings.saturation ? 1 : 0;
+      const int low = counts[i] <= settings.clipping ? 1 : 0;
+      bound[i] = static_cast<signed char>(high - low);
+      result.saturated += high;
+      result.clipped += low;
     }
-    return marked;
   }
 
   int saturatedNear(const WaveformEcho& echo) const {
@@ -59,7 +60,7 @@ struct WaveformDecomposer::State {
     const int from = static_cast<int>(std::clamp(std::ceil(echo.time - reach), 0.0, last));
     const int to = static_cast<int>(std::clamp(std::floor(echo.time + reach), -1.0, last));
     int n = 0;
-    for (int i = from; i <= to; ++i) n += bound[static_cast<std::size_t>(i)] != 0 ? 1 : 0;
+    for (int i = from; i <= to; ++i) n += bound[static_cast<std::size_t>(i)] > 0 ? 1 : 0;
     return n;
   }
 
@@ -120,12 +121,12 @@ void WaveformDecomposer::decompose(const double* counts, std::size_t samples,
                                    Decomposition& result) {
   State& s = *state_;
   result.count = result.iterations = 0;
-  result.saturated = s.markBounds(counts, samples);
+  s.markBounds(counts, samples, result);
   if (samples < kFewestSamples) {
     result.baseline = result.baseline_std = result.noise = 0.0;
     return;
   }
-  const signed char* bound = result.saturated > 0 ? s.bound.data() : nullptr;
+  const signed char* bound = result.saturated + result.clipped > 0 ? s.bound.data() : nullptr;
   const detail::EchoModel& model = s.search.search(counts, bound, static_cast<int>(samples));
   s.take(model, result);
   result.noise = s.search.noise();

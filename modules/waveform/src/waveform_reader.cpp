@@ -191,11 +191,7 @@ std::vector<std::string> describeWaveforms(const LasFile& las) {
   for (const auto& [index, d] : readWaveformDescriptors(las))
     texts.push_back("waveform descriptor " + std::to_string(index) + ": " + d.describe() +
                     ", gain " + shortText(d.gain) + " V, offset " + shortText(d.offset) + " V");
-  const ExternalWaveforms beside = ExternalWaveforms::of(las);
-  if (beside.expected) {
-    texts.push_back(beside.describe());
-    return texts;
-  }
+  if (ExternalWaveforms::of(las).expected) return texts;
   const std::optional<PacketRange> range = internalRange(las);
   texts.push_back(range ? "waveforms in the file, " + grouped(range->end - range->begin) + " bytes"
                         : "its records refer to waveforms that the file does not have");

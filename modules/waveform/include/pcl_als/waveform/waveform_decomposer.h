@@ -19,7 +19,7 @@ struct WaveformEcho {
   double time = 0.0;       ///< samples
   double width = 0.0;      ///< PulseResponse::width() of the echo, samples; FWHM / 2.3548
   double amplitude_std = 0.0, time_std = 0.0, width_std = 0.0;
-  int saturated = 0;  ///< saturated or clipped samples within one full width at half maximum
+  int saturated = 0;  ///< saturated samples within half a full width at half maximum
 };
 
 struct DecompositionSettings {
@@ -42,7 +42,8 @@ struct Decomposition {
   std::array<WaveformEcho, kMostEchoes> echo;  ///< the first \a count, in order of time
   double baseline = 0.0, baseline_std = 0.0;   ///< digitizer counts
   double noise = 0.0;  ///< standard deviation of a sample, from the residuals; digitizer counts
-  int saturated = 0;   ///< saturated or clipped samples of the waveform
+  int saturated = 0;   ///< saturated samples of the waveform
+  int clipped = 0;     ///< clipped samples of the waveform
   int iterations = 0;  ///< of all adjustments together
 };
 

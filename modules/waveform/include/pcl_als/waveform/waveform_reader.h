@@ -103,8 +103,9 @@ void unpackWaveform(const std::byte* packet, std::uint64_t bytes,
 /// The inverse of unpackWaveform(), packed. UsageError for a count that the bits cannot hold.
 std::vector<std::byte> packWaveform(const std::vector<double>& counts, unsigned bits);
 
-/// What pcl_als_info and other tools say of the waveforms of a file: one text for each descriptor
-/// and one for the place of the packets; empty if its records do not refer to waveforms.
+/// One text for each waveform packet descriptor of a file, and one for packets within it (those in
+/// another file: ExternalWaveforms::describe()); empty if its records do not refer to waveforms.
+/// InputError as readWaveformDescriptors().
 std::vector<std::string> describeWaveforms(const LasFile& las);
 
 }  // namespace pcl_als
