@@ -3,12 +3,15 @@
 #include <iostream>
 
 #include <pcl_als/common/atomic_file.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/io/dataset_inventory.h>
 #include <pcl_als/processing/flight_assessment.h>
 #include <pcl_als/processing/strip_inventory.h>
 #include <pcl_als/processing/trajectory_loading.h>
 #include <pcl_als/report/inventory_report.h>
+#include <pcl_als/waveform/waveform_reader.h>
 
 #include "command_line.h"
 #include "flight_options.h"
@@ -64,6 +67,21 @@ void nameOptions(const CommandLine& line, DatasetInventory& survey) {
   app::nameOptions(line, survey.remarks);
 }
 
+/// Adds what describes the waveforms of each file, or why it does not.
+void addWaveforms(const CommandLine& line, DatasetInventory& survey) {
+  const LasDamage damage = line.has("keep_readable") ? LasDamage::keep_intact : LasDamage::refuse;
+  for (FileInventory& file : survey.files) {
+    const std::string extension = lowerExtension(file.info.path);
+    if (extension != ".las" && extension != ".laz") continue;
+    try {
+      const LasFile las(file.info.path, kLazAllFields, damage);
+      for (const std::string& text : describeWaveforms(las)) file.remarks.push_back(text);
+    } catch (const InputError& error) {
+      file.remarks.push_back(error.what());
+    }
+  }
+}
+
 int info(const CommandLine& line) {
   const PointWindow window = windowOf(line);
   const double cell = line.number("cell");
@@ -82,6 +100,7 @@ int info(const CommandLine& line) {
   else
     listed.inventory = takeInventory({inputs.begin(), inputs.end()}, cell, progress, {}, window);
   DatasetInventory& survey = listed.inventory;
+  addWaveforms(line, survey);
   std::uint64_t points = 0;
   for (const FileInventory& file : survey.files) points += file.statistics.points;
   step.done(grouped(points) + " points");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/las/las_selection.h>
 
 #include "las_bytes.h"
@@ -126,6 +127,37 @@ TEST(LasSelection, RecordsThatDoNotFitAreRefusedByName) {
   other = LasBytes();
   other.encoding = 0;
   refused(other, "GPS time");
+}
+
+TEST(LasSelection, AppendsFieldsToItsRecords) {
+  const auto folder = test::scratch("las_selection_fields");
+  const LasBytes las = test::fullFile(4, 6, 20);
+  test::writeBytes(folder / "in.las", las.str());
+  const LasFile in(folder / "in.las");
+  LasExtraField field;
+  field.name = "added";
+  field.type = LasExtraType::u16;
+  const std::vector<LasExtraField> placed = placeExtension(in, {field});
+  const std::size_t length = in.header().record_length;
+  ASSERT_EQ(placed[0].position, length);
+  LasSelectionWriter writer(folder / "out.laz", in, {field});
+  // More records than the file has.
+  for (unsigned i = 0; i < 50; ++i) {
+    std::vector<std::byte> record(length + 2);
+    in.readRecords(i % 20, 1, record.data());
+    storeLas(&record[length], static_cast<std::uint16_t>(7 * i));
+    writer.append(record.data(), 1);
+  }
+  writer.finish();
+  const LasFile out(folder / "out.laz");
+  EXPECT_EQ(out.header().point_count, 50U);
+  EXPECT_EQ(out.header().record_length, length + 2);
+  EXPECT_EQ(out.extraFields().back().name, "added");
+  EXPECT_EQ(out.header().evlr_count, in.header().evlr_count);
+  std::vector<std::byte> record(length + 2);
+  out.readRecords(33, 1, record.data());
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(record.data()), length), las.record(13));
+  EXPECT_EQ(loadLas<std::uint16_t>(&record[length]), 231);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/las/las_selection.h>
 
+#include "las_extension.h"
 #include "las_output.h"
 #include "las_statistics.h"
 #include "las_tail.h"
@@ -36,16 +37,22 @@ struct LasSelectionWriter::State {
   WaveformCopy waveforms;
   detail::LasOutput output;
 
-  State(const std::filesystem::path& path, const LasFile& file, int threads)
+  State(const std::filesystem::path& path, const LasFile& file, detail::LasHead head, int threads)
       : like(file),
         header(file.header()),
         waveforms(file, path),
-        output(checked(path, file), detail::readLasHead(file), threads) {}
+        output(checked(path, file), head, threads) {
+    header.record_length = head.header.record_length;
+  }
 };
 
 LasSelectionWriter::LasSelectionWriter(const std::filesystem::path& path, const LasFile& like,
                                        int threads)
-    : state_(std::make_unique<State>(path, like, threads)) {}
+    : LasSelectionWriter(path, like, std::vector<LasExtraField>(), threads) {}
+
+LasSelectionWriter::LasSelectionWriter(const std::filesystem::path& path, const LasFile& like,
+                                       const std::vector<LasExtraField>& fields, int threads)
+    : state_(std::make_unique<State>(path, like, detail::extendedHead(like, fields), threads)) {}
 
 LasSelectionWriter::~LasSelectionWriter() = default;
 
@@ -61,7 +68,7 @@ std::uint64_t LasSelectionWriter::pointCount() const {
 
 void LasSelectionWriter::finish() {
   State& s = *state_;
-  detail::copyLasTail(s.like, s.output);
+  detail::copyLasTail(s.like, s.output, s.header.record_length > s.like.header().record_length);
   s.counters.store(s.header);
   s.output.putCounts(s.header);
   s.waveforms.prepare();

@@ -26,6 +26,7 @@
 #include "file_times.h"
 #include "file_uncertainty.h"
 #include "flight_check.h"
+#include "waveform_direction.h"
 
 namespace pcl_als {
 namespace {
@@ -79,9 +80,8 @@ void recoverAttitude(Job& job, const Points& points) {
   if (outcome.linear) {
     job.fallback_attitude = std::move(outcome.attitude);
     // Where nothing shows, the sensor counts as level.
-    if (job.fallback_attitude.empty()) {
+    if (job.fallback_attitude.empty())
       job.fallback_attitude.addPass({{job.flight->startTime(), {}}, {job.flight->endTime(), {}}});
-    }
     return;
   }
   if (!job.options.force) {
@@ -201,7 +201,7 @@ bool rewrite(Job& job, const LasFile& file) {
   const LasEdit edit = [&](const LasRecordBlock& block) {
     std::vector<Eigen::Vector3f> normals;
     if (uncertainty) normals = uncertainty->normalsOf(block);
-    const CoverageCount coverage = engine.apply(block.records, block.count, block.first);
+    const CoverageCount coverage = detail::applyWithWaveforms(engine, file, block);
     if (uncertainty) uncertainty->store(block, normals);
     counters.add(coverage);
   };

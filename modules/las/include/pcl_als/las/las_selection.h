@@ -26,9 +26,12 @@ class LasSelectionWriter {
  public:
   /// \param like must exist until finish(). UsageError where it is the output itself.
   LasSelectionWriter(const std::filesystem::path& path, const LasFile& like, int threads = 0);
+  /// Records are longer by the fields, as those of extendLas(): see placeExtension().
+  LasSelectionWriter(const std::filesystem::path& path, const LasFile& like,
+                     const std::vector<LasExtraField>& fields, int threads = 0);
   ~LasSelectionWriter();
 
-  /// Appends records of the format of \a like.
+  /// Appends records of the format of \a like, with the fields.
   void append(const std::byte* records, std::size_t count);
   std::uint64_t pointCount() const;
   void finish();

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <pcl_als/las/las_file.h>
+
+namespace pcl_als::detail {
+
+/// Consecutive point records with the same waveform.
+struct WaveformPulse {
+  const std::byte* records = nullptr;
+  std::size_t count = 0;
+  std::uint64_t first = 0;  ///< index of the first record in the file
+  bool repeated = false;    ///< its packet was met before, with other records between
+};
+
+/// Remembers the packets that were met: the last one of every 2^20 hash values.
+class PacketMemory {
+ public:
+  PacketMemory();
+  /// Whether the packet was met before; it is from now on.
+  bool meets(std::uint64_t offset);
+
+ private:
+  std::vector<std::uint64_t> last_;
+};
+
+/** \brief Reads a file in order, as pulses.
+ *
+ * Calls \a take with the pulses of a block of records that are complete: the last pulse of a block
+ * is continued in the next one. Records without a waveform are pulses by themselves.
+ */
+void readPulses(const LasFile& las,
+                const std::function<void(const std::vector<WaveformPulse>&)>& take);
+
+}  // namespace pcl_als::detail
