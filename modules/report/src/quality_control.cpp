@@ -41,6 +41,7 @@ const Fields<ControlDifference>& differenceFields() {
       "difference", "One strip at one control point.",
       {{"point", &D::point, "Control point"},
        {"strip", &D::strip, "Strip"},
+       {"place_m", &D::position, "Place of the point: easting, northing, height"},
        {"above_m", &D::above, "Height of the strip above control"},
        {"slope_deg", &D::slope, "Slope of the surface", in(kRadiansPerDegree)},
        {"roughness_m", &D::roughness, "Roughness of the surface"},
