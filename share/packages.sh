@@ -28,6 +28,7 @@ pcl_als_packages_test=(
   chromium:chromium     # reports in a browser
   xvfb:Xvfb             # windows
   file:file dpkg-dev:dpkg-shlibdeps lintian:lintian  # CPack's Debian packages, and what is wrong with them
+  python3-jsonschema                                 # result files against their schemas
   python3-numpy python3-matplotlib python3-venv      # the Python package, its examples, its installation
 )
 

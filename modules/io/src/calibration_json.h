@@ -6,23 +6,42 @@
 #include <string_view>
 
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/fields.h>
 
 namespace pcl_als::detail {
 
-class JsonNode;
-
-inline constexpr std::string_view kCalibrationFormat = "pcl_als calibration";
+inline constexpr const char* kCalibrationFormat = "pcl_als calibration";
 /// Version 1 had no parts: all keys were those of one object.
 inline constexpr int kCalibrationVersion = 2;
 
-/// The text of a calibration.json. UsageError for a bias that is not finite; any other number that
-/// is not becomes null.
-std::string calibrationToJson(const CalibrationResult& result);
+// The three parts of a calibration.json. Angles are in arc-seconds there.
+const Fields<CalibrationResult>& instrumentFields();
+const Fields<CalibrationResult>& flightFields();
+const Fields<CalibrationResult>& reportFields();
 
-/// Reads it back; \a name is the file, for messages.
-CalibrationResult calibrationFromJson(const std::string& text, const std::string& name);
+/// Reads a calibration.json that was parsed.
+CalibrationResult calibrationIn(const FieldNode& root, const std::string& name);
 
 /// Reads the instrument part of a calibration.json or of another file that has one.
-CalibrationResult instrumentIn(const JsonNode& part);
+CalibrationResult instrumentIn(const FieldNode& part);
+
+/// "prior", with its differences to the flight, and "held".
+Field<CalibrationResult> priorField();
+Field<CalibrationResult> heldField();
+/// Names of system parameters; \a access returns a reference to a vector of them.
+std::vector<SystemParameter> parametersNamed(const FieldNode& names);
+const FieldNames<SystemParameter>& parameterNames();
+const FieldNames<AttitudeSource>& attitudeNames();
+
+/// The unit of an object, which must be that one.
+template <typename S>
+Field<S> unitField(std::string_view unit) {
+  return Field<S>(
+      "unit", [unit](const S& /*object*/) { return unit; }, "Unit of its values",
+      field::is({FieldType::Kind::text, false, {std::string(unit)}}),
+      field::reads([unit](S& /*object*/, const FieldNode& node) {
+        if (node.text() != unit) node.refuseText({std::string(unit)});
+      }));
+}
 
 }  // namespace pcl_als::detail

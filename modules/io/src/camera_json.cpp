@@ -5,16 +5,13 @@
 #include <cstring>
 
 #include <pcl_als/common/atomic_file.h>
+#include <pcl_als/common/field_node.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/io/image_block_io.h>
-
-#include "json_node.h"
-#include "json_parse.h"
+#include <pcl_als/io/json_text.h>
 
 namespace pcl_als {
 namespace {
-
-using detail::JsonNode;
 
 constexpr const char* kFormat = "pcl_als camera";
 constexpr int kVersion = 1;
@@ -22,10 +19,10 @@ constexpr std::array<const char*, 3> kRadial = {"k1_per_mm2", "k2_per_mm4", "k3_
 constexpr std::array<const char*, 2> kTangential = {"p1_per_mm", "p2_per_mm"};
 
 /// Keys without effect are refused where they look like one that has.
-void checkKeys(const nlohmann::json& json, const JsonNode& root) {
+void checkKeys(const FieldNode& root) {
   constexpr std::array<const char*, 5> kKeys = {"focal_length_mm", "principal_point_mm",
                                                 "pixel_size_mm", "image_size_px", "image_size_mm"};
-  for (const auto& [key, value] : json.items()) {
+  for (const std::string& key : root.keys()) {
     for (const char* known : kKeys) {
       const std::string stem(known, std::strlen(known) - 3);
       if (key.compare(0, stem.size(), stem) == 0 &&
@@ -33,9 +30,8 @@ void checkKeys(const nlohmann::json& json, const JsonNode& root) {
         root[key].refuse(std::string("is not known: is '") + known + "' meant?");
     }
   }
-  if (!json.contains("distortion")) return;
-  if (!json["distortion"].is_object()) root["distortion"].refuse("must be an object");
-  for (const auto& [key, value] : json["distortion"].items()) {
+  if (!root.has("distortion")) return;
+  for (const std::string& key : root["distortion"].keys()) {
     if (std::find(kRadial.begin(), kRadial.end(), key) == kRadial.end() &&
         std::find(kTangential.begin(), kTangential.end(), key) == kTangential.end())
       root["distortion"][key].refuse(
@@ -46,7 +42,7 @@ void checkKeys(const nlohmann::json& json, const JsonNode& root) {
 /// No camera displaces a corner of its image by more than this share of its distance.
 constexpr double kMostDistortion = 0.5;
 
-void checkDistortion(const FrameCamera& camera, const JsonNode& root) {
+void checkDistortion(const FrameCamera& camera, const FieldNode& root) {
   for (const Eigen::Vector2d& sign : {Eigen::Vector2d(1.0, 1.0), Eigen::Vector2d(-1.0, 1.0),
                                       Eigen::Vector2d(1.0, -1.0), Eigen::Vector2d(-1.0, -1.0)}) {
     const Eigen::Vector2d corner = 0.5 * sign.cwiseProduct(camera.format);
@@ -61,13 +57,13 @@ void checkDistortion(const FrameCamera& camera, const JsonNode& root) {
   }
 }
 
-Eigen::Vector2d pairOf(const JsonNode& node) {
-  const std::vector<JsonNode> items = node.items();
+Eigen::Vector2d pairOf(const FieldNode& node) {
+  const std::vector<FieldNode> items = node.items();
   if (items.size() != 2) node.refuse("must be a list of two numbers");
   return {items[0].number(), items[1].number()};
 }
 
-double positive(const JsonNode& node) {
+double positive(const FieldNode& node) {
   const double value = node.number();
   if (value <= 0.0) node.refuse("must be more than 0");
   return value;
@@ -76,13 +72,13 @@ double positive(const JsonNode& node) {
 }  // namespace
 
 FrameCamera readCamera(const std::filesystem::path& path) {
-  const nlohmann::json json = detail::parseJson(readWholeFile(path, kJsonLimits), path.string());
-  const JsonNode root(json, path.string());
+  const FieldValue file = parseJson(readWholeFile(path, kJsonLimits), path.string());
+  const FieldNode root(file, path.string());
   if (!root.has("format") || root["format"].text() != kFormat)
     root.refuse(std::string("is no camera: 'format' must be \"") + kFormat + "\"");
   if (root.has("version") && root["version"].whole() != kVersion)
     root["version"].refuse("is not " + std::to_string(kVersion) + ", which can be read");
-  checkKeys(json, root);
+  checkKeys(root);
   FrameCamera camera;
   if (root.has("name")) camera.name = root["name"].text();
   camera.focal_length = positive(root["focal_length_mm"]);
@@ -101,7 +97,7 @@ FrameCamera readCamera(const std::filesystem::path& path) {
     root["principal_point_mm"].refuse(
         "is outside the image: it is given in mm from the middle of the image");
   if (!root.has("distortion")) return camera;
-  const JsonNode distortion = root["distortion"];
+  const FieldNode distortion = root["distortion"];
   for (std::size_t i = 0; i < kRadial.size(); ++i)
     if (distortion.has(kRadial[i])) camera.radial[i] = distortion[kRadial[i]].number();
   for (std::size_t i = 0; i < kTangential.size(); ++i)
@@ -111,24 +107,25 @@ FrameCamera readCamera(const std::filesystem::path& path) {
 }
 
 void writeCamera(const std::filesystem::path& path, const FrameCamera& camera) {
-  nlohmann::ordered_json json;
-  json["format"] = kFormat;
-  json["version"] = kVersion;
-  json["name"] = camera.name;
-  json["focal_length_mm"] = camera.focal_length;
-  json["principal_point_mm"] = {camera.principal_point.x(), camera.principal_point.y()};
+  using List = FieldValue::List;
+  FieldValue file, distortion;
+  file.set("format", kFormat);
+  file.set("version", kVersion);
+  file.set("name", camera.name);
+  file.set("focal_length_mm", camera.focal_length);
+  file.set("principal_point_mm", List{camera.principal_point.x(), camera.principal_point.y()});
   if (camera.pixel_size > 0.0) {
-    json["pixel_size_mm"] = camera.pixel_size;
-    json["image_size_px"] = {camera.format.x() / camera.pixel_size,
-                             camera.format.y() / camera.pixel_size};
+    file.set("pixel_size_mm", camera.pixel_size);
+    file.set("image_size_px",
+             List{camera.format.x() / camera.pixel_size, camera.format.y() / camera.pixel_size});
   } else {
-    json["image_size_mm"] = {camera.format.x(), camera.format.y()};
+    file.set("image_size_mm", List{camera.format.x(), camera.format.y()});
   }
-  for (std::size_t i = 0; i < kRadial.size(); ++i)
-    json["distortion"][kRadial[i]] = camera.radial[i];
+  for (std::size_t i = 0; i < kRadial.size(); ++i) distortion.set(kRadial[i], camera.radial[i]);
   for (std::size_t i = 0; i < kTangential.size(); ++i)
-    json["distortion"][kTangential[i]] = camera.tangential[i];
-  writeFile(path, json.dump(1) + "\n");
+    distortion.set(kTangential[i], camera.tangential[i]);
+  file.set("distortion", std::move(distortion));
+  writeFile(path, jsonText(file));
 }
 
 }  // namespace pcl_als

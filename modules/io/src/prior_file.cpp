@@ -3,26 +3,22 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
-#include <nlohmann/json.hpp>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/common/parameter_covariance.h>
+#include <pcl_als/io/json_text.h>
 #include <pcl_als/io/prior_file.h>
 
 #include "calibration_json.h"
-#include "json_node.h"
-#include "json_parse.h"
 
 namespace pcl_als {
 namespace {
 
-using detail::JsonNode;
-
 constexpr const char* kHistoryFormat = "pcl_als history";
 constexpr long kHistoryVersion = 1;
 
-void readHistory(const JsonNode& root, PriorFile& file) {
+void readHistory(const FieldNode& root, PriorFile& file) {
   const long version = root["version"].whole();
   if (version != kHistoryVersion)
     root["version"].refuse("is " + std::to_string(version) + "; this version of pcl_als reads " +
@@ -30,7 +26,7 @@ void readHistory(const JsonNode& root, PriorFile& file) {
   file.is_history = true;
   file.earlier = detail::instrumentIn(root["instrument"]);
   if (!root.has("change_std")) return;
-  const JsonNode changes = root["change_std"];
+  const FieldNode changes = root["change_std"];
   for (const SystemParameterInfo& info : systemParameters()) {
     const std::string name(info.name);
     if (!changes.has(name.c_str())) continue;
@@ -77,18 +73,16 @@ PriorFile readPriorFile(const std::filesystem::path& path) {
   PriorFile file;
   file.name = path.string();
   file.change_std = missionChangeStd();
-  const std::string text = readWholeFile(path, kJsonLimits);
-  const nlohmann::json json = detail::parseJson(text, file.name);
-  const JsonNode root(json, file.name);
+  const FieldValue json = parseJson(readWholeFile(path, kJsonLimits), file.name);
+  const FieldNode root(json, file.name);
   const std::string format = root.has("format") ? root["format"].text() : std::string();
   if (format == kHistoryFormat) {
     readHistory(root, file);
   } else if (format == detail::kCalibrationFormat) {
-    file.earlier = detail::calibrationFromJson(text, file.name);
+    file.earlier = detail::calibrationIn(root, file.name);
   } else {
-    throw InputError(file.name + ": 'format' is neither '" +
-                     std::string(detail::kCalibrationFormat) + "' nor '" + kHistoryFormat +
-                     "'; give a calibration.json or a history.json");
+    throw InputError(file.name + ": 'format' is neither '" + detail::kCalibrationFormat +
+                     "' nor '" + kHistoryFormat + "'; give a calibration.json or a history.json");
   }
   return file;
 }

@@ -6,59 +6,13 @@
 #include <map>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/report/accuracy_report.h>
 
-#include "excluded_json.h"
 #include "formatted.h"
-#include "json_number.h"
 
 namespace pcl_als {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json proportion(const Proportion& p) {
-  return {{"value", number(p.value)}, {"low_95", number(p.low)}, {"high_95", number(p.high)}};
-}
-
-Json resultJson(const AccuracyResult& result) {
-  Json json;
-  json["points"] = result.points;
-  json["correct"] = result.correct;
-  json["overall_accuracy"] = proportion(result.overall);
-  json["kappa"] = proportion(result.kappa_interval);
-  json["kappa"]["std"] = number(result.kappa_std);
-  json["classes"] = Json::array();
-  for (const ClassAccuracy& c : result.classes)
-    json["classes"].push_back({{"name", c.name},
-                               {"classified", c.classified},
-                               {"reference", c.reference},
-                               {"correct", c.correct},
-                               {"users_accuracy", proportion(c.users)},
-                               {"producers_accuracy", proportion(c.producers)},
-                               {"conditional_kappa", number(c.kappa)},
-                               {"conditional_kappa_std", number(c.kappa_std)}});
-  return json;
-}
-
-Json comparisonJson(const AccuracyComparison& c) {
-  Json json = {{"overall_difference", c.overall_difference},
-               {"kappa_difference", number(c.kappa_difference)},
-               {"kappa_difference_std", number(c.kappa_difference_std)},
-               {"z", number(c.kappa_z)},
-               {"p_two_sided", number(c.kappa_p)},
-               {"same_check_points", c.same_points}};
-  if (c.same_points)
-    json["mcnemar"] = {{"only_this_right", c.only_first_right},
-                       {"only_other_right", c.only_second_right},
-                       {"chi_squared", c.mcnemar_chi_sq},
-                       {"p_exact", c.mcnemar_p}};
-  return json;
-}
 
 std::string fixed(double value, int digits) {
   return std::isfinite(value) ? formatted("%.*f", digits, value) : "-";
@@ -137,38 +91,6 @@ std::string accuracyText(const AccuracyReport& report) {
   for (const std::string& remark : report.remarks) text += "  note: " + remark + "\n";
   if (report.comparison) text += comparisonText(report);
   return text;
-}
-
-std::string accuracyJson(const AccuracyReport& report) {
-  Json json;
-  json["format"] = "pcl_als accuracy";
-  json["version"] = 1;
-  const Json result = resultJson(report.result);
-  for (const auto& [key, value] : result.items()) json[key] = value;
-  Json matrix = Json::array();
-  for (Eigen::Index i = 0; i < report.matrix.counts.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < report.matrix.counts.cols(); ++j)
-      row.push_back(report.matrix.counts(i, j));
-    matrix.push_back(row);
-  }
-  json["confusion"] = {{"classes", report.matrix.classes}, {"matrix", matrix}};
-  if (report.comparison) {
-    json["comparison"] = comparisonJson(*report.comparison);
-    json["comparison"]["with"] = report.compared_with;
-    json["comparison"]["other"] = resultJson(*report.other);
-  }
-  std::vector<std::string> remarks = report.result.remarks;
-  remarks.insert(remarks.end(), report.remarks.begin(), report.remarks.end());
-  json["warnings"] = remarks;
-  if (!report.excluded.empty()) json["left_out"] = excludedJson(report.excluded);
-  json["inputs"] = report.inputs;
-  json["tool_version"] = PCL_ALS_VERSION;
-  return json.dump(1) + "\n";
-}
-
-void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& report) {
-  writeFile(path, accuracyJson(report));
 }
 
 ConfusionMatrix matrixOf(const CountTable& table) {

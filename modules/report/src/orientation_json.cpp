@@ -2,191 +2,257 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include <pcl_als/common/atomic_file.h>
+#include <pcl_als/common/fields.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/image_block_io.h>
+#include <pcl_als/io/json_text.h>
 #include <pcl_als/report/orientation_report.h>
-
-#include "json_number.h"
 
 namespace pcl_als {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using namespace field;
 
-Json listOf(const Eigen::VectorXd& values, bool known = true) {
-  Json list = Json::array();
-  for (Eigen::Index i = 0; i < values.size(); ++i) list.push_back(number(values[i], known));
-  return list;
-}
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
 
-Json matrixOf(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) rows.push_back(listOf(matrix.row(i)));
-  return rows;
-}
+/// An item of the result, with whether the standard deviations of the block are reliable.
+template <typename Item>
+struct Rated {
+  const Item* item;
+  bool reliable;
 
-const char* nameOf(BundleResult::Status status) {
-  switch (status) {
-    case BundleResult::Status::converged:
-      return "converged";
-    case BundleResult::Status::not_converged:
-      return "not_converged";
-    case BundleResult::Status::not_determined:
-      return "not_determined";
+  /// Unknown values without a reliable block.
+  Vector known(const Vector& values) const {
+    return reliable ? values : Vector::Constant(values.size(), std::nan(""));
   }
-  return "";
+};
+
+template <typename Item>
+std::vector<Rated<Item>> rated(const std::vector<Item>& items, const BundleResult& bundle) {
+  std::vector<Rated<Item>> all;
+  for (const Item& item : items) all.push_back({&item, bundle.reliable()});
+  return all;
+}
+
+Vector deviations(const Matrix& covariance) {
+  return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
 /// The covariance is in m and degrees, as the values.
-Json imagesOf(const BundleResult& bundle) {
-  Json all = Json::array();
-  const bool known = bundle.reliable();
-  for (const OrientedImage& image : bundle.images) {
-    Eigen::Matrix<double, 6, 1> unit;
-    unit << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / kRadiansPerDegree);
-    const Matrix6d covariance = unit.asDiagonal() * image.covariance * unit.asDiagonal();
-    const Eigen::VectorXd std = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-    Json one;
-    one["image"] = image.orientation.id;
-    one["position_m"] = listOf(image.orientation.position);
-    one["omega_phi_kappa_deg"] = listOf(image.orientation.angles / kRadiansPerDegree);
-    one["std_position_m"] = listOf(std.head(3), known);
-    one["std_omega_phi_kappa_deg"] = listOf(std.tail(3), known);
-    one["covariance"] = known ? matrixOf(covariance) : Json();
-    one["points"] = image.points;
-    one["places_on_lines"] = image.lines;
-    one["rms_mm"] = image.rms;
-    all.push_back(std::move(one));
-  }
+Matrix covarianceOf(const OrientedImage& image) {
+  Eigen::Matrix<double, 6, 1> unit;
+  unit << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / kRadiansPerDegree);
+  return unit.asDiagonal() * image.covariance * unit.asDiagonal();
+}
+
+const Fields<Rated<OrientedImage>>& imageFields() {
+  using R = Rated<OrientedImage>;
+  static const Fields<R> fields(
+      "image", "Orientation of an image.",
+      {{"image", [](const R& r) { return r.item->orientation.id; }, "Name of the image"},
+       {"position_m", [](const R& r) { return r.item->orientation.position; },
+        "Position of the camera: easting, northing, height"},
+       {"omega_phi_kappa_deg", [](const R& r) { return r.item->orientation.angles; },
+        "Rotation of the image", in(kRadiansPerDegree)},
+       {"std_position_m",
+        [](const R& r) -> Vector { return r.known(deviations(covarianceOf(*r.item)).head(3)); },
+        "Standard deviations of the position"},
+       {"std_omega_phi_kappa_deg",
+        [](const R& r) -> Vector { return r.known(deviations(covarianceOf(*r.item)).tail(3)); },
+        "Standard deviations of the rotation"},
+       {"covariance", [](const R& r) { return covarianceOf(*r.item); },
+        "Covariance of position and rotation, m and degrees", knownIf(&R::reliable)},
+       {"points", [](const R& r) { return r.item->points; }, "Points that were measured in it"},
+       {"places_on_lines", [](const R& r) { return r.item->lines; }, "Places on lines"},
+       {"rms_mm", [](const R& r) { return r.item->rms; }, "RMS of the residuals in the image"}});
+  return fields;
+}
+
+const Fields<Rated<GroundPoint>>& pointFields() {
+  using R = Rated<GroundPoint>;
+  static const Fields<R> fields(
+      "point", "A point that was measured in images.",
+      {{"point", [](const R& r) { return r.item->id; }, "Name of the point"},
+       {"position_m", [](const R& r) { return r.item->position; }, "Its position"},
+       {"std_m", [](const R& r) { return r.known(deviations(r.item->covariance)); },
+        "Standard deviations"},
+       {"covariance_m2", [](const R& r) -> Matrix { return r.item->covariance; },
+        "Covariance of the position", knownIf(&R::reliable)},
+       {"rays", [](const R& r) { return r.item->rays; }, "Number of images"}});
+  return fields;
+}
+
+const Fields<Rated<AdjustedLine>>& lineFields() {
+  using R = Rated<AdjustedLine>;
+  static const Fields<R> fields(
+      "line", "A control line.",
+      {{"line", [](const R& r) { return r.item->line.id; }, "Name of the line"},
+       {"used", [](const R& r) { return r.item->used; }, "Whether it was used"},
+       {"start_m", [](const R& r) { return r.item->line.start; }, "Its start"},
+       {"end_m", [](const R& r) { return r.item->line.end; }, "Its end"},
+       {"shift_m", [](const R& r) -> Vector { return r.item->shift; }, "Shift by the adjustment"},
+       {"std_m", [](const R& r) { return r.known(deviations(r.item->line.covariance)); },
+        "Standard deviations"},
+       {"redundancy", [](const R& r) { return r.item->redundancy; }, "Redundancy number"},
+       {"standardised", [](const R& r) { return r.item->misfit; }, "Standardised misfit"},
+       {"places", [](const R& r) { return r.item->places; }, "Places in images"}});
+  return fields;
+}
+
+const Fields<Blunder>& blunderFields() {
+  using B = Blunder;
+  const auto kind = [](const B& b) {
+    return b.image.empty() ? "control line" : b.line ? "line" : "point";
+  };
+  static const Fields<B> fields(
+      "blunder", "A measurement that was left out.",
+      {{"kind", kind, "What was measured", oneOf({"control line", "line", "point"})},
+       {"feature", &B::feature, "Name of the line or point"},
+       {"image", &B::image, "The image; null of a control line",
+        knownIf([](const B& b) { return !b.image.empty(); })},
+       {"localised", &B::localised, "Whether it was told from its neighbours"},
+       {"standardised", &B::standardised, "Standardised residual"}});
+  return fields;
+}
+
+const Fields<ImageOrientationResult>& checkFields() {
+  using R = ImageOrientationResult;
+  using P = Rated<ImageCheckPoint>;
+  static const Fields<P> points(
+      "check_point", "A point whose position is known and was not used.",
+      {{"point", [](const P& p) { return p.item->id; }, "Name of the point"},
+       {"difference_m", [](const P& p) -> Vector { return p.item->difference; }, "Image - known"},
+       {"std_m", [](const P& p) { return p.known(p.item->std); }, "Standard deviations"},
+       {"rays", [](const P& p) { return p.item->rays; }, "Number of images"}});
+  static const Fields<CheckSummary> summary(
+      "check_summary", "Differences of all check points.",
+      {{"mean_m", &CheckSummary::mean, "Mean: easting, northing, height"},
+       {"std_m", &CheckSummary::std, "Standard deviations"},
+       {"rmse_m", &CheckSummary::rmse, "RMSE"},
+       {"rmse_total_m", &CheckSummary::total, "RMSE of the distance"}});
+  static const Fields<R> fields(
+      "check_points", "Check points.",
+      {{"count", [](const R& r) { return r.check_points.size(); }, "Number of check points"},
+       Field<R>::all([](const R& r) { return summaryOf(r.check_points); }, summary),
+       {"points", [](const R& r) { return rated(r.check_points, r.bundle); }, points, "The points"},
+       {"not_in_the_images", &R::missing_points, "Points that no image has"}});
+  return fields;
+}
+
+/// A residual with its measurement.
+struct ResidualOf {
+  const ImageResidual* residual;
+  const ImageMeasurement* measurement;
+  bool line() const { return measurement->kind == ImageMeasurement::Kind::line; }
+};
+
+std::vector<ResidualOf> residualsOf(const ImageOrientationResult& result) {
+  std::vector<ResidualOf> all;
+  for (const ImageResidual& residual : result.bundle.residuals)
+    all.push_back({&residual, &result.block.measurements[residual.measurement]});
   return all;
 }
 
-Json pointsOf(const BundleResult& bundle) {
-  Json all = Json::array();
-  for (const GroundPoint& point : bundle.points) {
-    const Eigen::VectorXd std = point.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-    all.push_back({{"point", point.id},
-                   {"position_m", listOf(point.position)},
-                   {"std_m", listOf(std, bundle.reliable())},
-                   {"covariance_m2", bundle.reliable() ? matrixOf(point.covariance) : Json()},
-                   {"rays", point.rays}});
-  }
-  return all;
+const Fields<ResidualOf>& residualFields() {
+  using R = ResidualOf;
+  static const Fields<R> fields(
+      "residual", "Residual of a measurement.",
+      {{"image", [](const R& r) { return r.measurement->image; }, "Image"},
+       {"kind", [](const R& r) { return r.line() ? "line" : "point"; }, "What was measured",
+        oneOf({"line", "point"})},
+       {"feature", [](const R& r) { return r.measurement->feature; }, "Name of line or point"},
+       {"residual_mm",
+        [](const R& r) -> Vector { return r.residual->residual.head(r.line() ? 1 : 2); },
+        "Across the line, or x and y"},
+       {"redundancy", [](const R& r) { return r.residual->redundancy; }, "Redundancy number"},
+       {"standardised", [](const R& r) { return r.residual->standardised; },
+        "Standardised residual"},
+       {"used", [](const R& r) { return r.residual->used; }, "Whether it was used"}});
+  return fields;
 }
 
-Json linesOf(const BundleResult& bundle) {
-  Json all = Json::array();
-  for (const AdjustedLine& line : bundle.lines) {
-    const Eigen::VectorXd std = line.line.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-    all.push_back({{"line", line.line.id},
-                   {"used", line.used},
-                   {"start_m", listOf(line.line.start)},
-                   {"end_m", listOf(line.line.end)},
-                   {"shift_m", listOf(line.shift)},
-                   {"std_m", listOf(std, bundle.reliable())},
-                   {"redundancy", line.redundancy},
-                   {"standardised", line.misfit},
-                   {"places", line.places}});
-  }
-  return all;
+const Fields<BundleResult>& bundleFields() {
+  using B = BundleResult;
+  using Status = B::Status;
+  static const Fields<B> worst(
+      "determined_worst", "The unknown that is determined worst.",
+      {{"name", &B::weakest, "Its name"}, {"std_m", &B::weakest_std, "Its effect on the ground"}});
+  static const Fields<B> fields(
+      "adjustment", "The bundle adjustment.",
+      {{"status", &B::status,
+        FieldNames<Status>({{Status::converged, "converged"},
+                            {Status::not_converged, "not_converged"},
+                            {Status::not_determined, "not_determined"}}),
+        "Whether there is a result"},
+       {"message", &B::message, "Why there is none"},
+       {"sigma0", &B::sigma0, "A posteriori standard deviation of unit weight"},
+       {"redundancy", &B::redundancy, "Redundancy"},
+       {"determined_worst", kSameObject, worst, "The unknown that is determined worst",
+        onlyIf([](const B& b) { return !b.weakest.empty(); })},
+       {"observations", &B::observations, "Number of observations"},
+       {"unknowns", &B::unknowns, "Number of unknowns"},
+       {"iterations", &B::iterations, "Number of iterations"}});
+  return fields;
 }
 
-Json blundersOf(const BundleResult& bundle) {
-  Json all = Json::array();
-  for (const Blunder& blunder : bundle.blunders) {
-    all.push_back({{"kind", blunder.image.empty() ? "control line"
-                            : blunder.line        ? "line"
-                                                  : "point"},
-                   {"feature", blunder.feature},
-                   {"image", blunder.image.empty() ? Json() : Json(blunder.image)},
-                   {"localised", blunder.localised},
-                   {"standardised", blunder.standardised}});
-  }
-  return all;
+const Fields<BundleResult>& cameraTestFields() {
+  using B = BundleResult;
+  const auto order = [](const B&) {
+    return std::vector<std::string>{"focal_length", "principal_point_x", "principal_point_y"};
+  };
+  static const Fields<B> fields(
+      "camera_test", "Corrections of the camera that the images indicate; they are not applied.",
+      {{"order", order, "Order of the values"},
+       {"indicated_correction_mm", [](const B& b) -> Vector { return b.interior; }, "Corrections"},
+       {"std_mm", [](const B& b) -> Vector { return b.interior_std; }, "Standard deviations"}});
+  return fields;
 }
 
-Json assignmentsOf(const ImageOrientationResult& result) {
-  Json all = Json::array();
-  for (const LineAssignment& assignment : result.assignments) {
-    all.push_back({{"image_line", assignment.image_line},
-                   {"control_line", assignment.object_line},
-                   {"distance_m", assignment.distance}});
-  }
-  return all;
-}
-
-Json checkOf(const ImageOrientationResult& result) {
-  Json json;
-  const CheckSummary summary = summaryOf(result.check_points);
-  json["count"] = result.check_points.size();
-  json["mean_m"] = listOf(summary.mean);
-  json["std_m"] = listOf(summary.std);
-  json["rmse_m"] = listOf(summary.rmse);
-  json["rmse_total_m"] = summary.total;
-  json["points"] = Json::array();
-  for (const ImageCheckPoint& point : result.check_points) {
-    json["points"].push_back({{"point", point.id},
-                              {"difference_m", listOf(point.difference)},
-                              {"std_m", listOf(point.std, result.bundle.reliable())},
-                              {"rays", point.rays}});
-  }
-  json["not_in_the_images"] = result.missing_points;
-  return json;
-}
-
-Json residualsOf(const ImageOrientationResult& result) {
-  Json all = Json::array();
-  for (const ImageResidual& residual : result.bundle.residuals) {
-    const ImageMeasurement& m = result.block.measurements[residual.measurement];
-    const bool line = m.kind == ImageMeasurement::Kind::line;
-    all.push_back({{"image", m.image},
-                   {"kind", line ? "line" : "point"},
-                   {"feature", m.feature},
-                   {"residual_mm", listOf(residual.residual.head(line ? 1 : 2))},
-                   {"redundancy", residual.redundancy},
-                   {"standardised", residual.standardised},
-                   {"used", residual.used}});
-  }
-  return all;
+const Fields<LineAssignment>& assignmentFields() {
+  using A = LineAssignment;
+  static const Fields<A> fields("assignment", "A line of an image and its control line.",
+                                {{"image_line", &A::image_line, "Line in the images"},
+                                 {"control_line", &A::object_line, "Control line"},
+                                 {"distance_m", &A::distance, "Distance of both"}});
+  return fields;
 }
 
 }  // namespace
 
+const FieldTable& orientationFields() {
+  using R = ImageOrientationResult;
+  using F = Field<R>;
+  static const Fields<R> fields(
+      "orientation", "Result of `pcl_als_orient`.",
+      {F::constant("format", "pcl_als orientation", ""),
+       F::constant("version", 1, ""),
+       F::constant("rotation",
+                   "ground = position + s Rx(omega) Ry(phi) Rz(kappa) (x, y, minus the focal "
+                   "length), image x to the right, y up",
+                   "Convention of the rotations"),
+       F::all(&R::bundle, bundleFields()),
+       {"camera", [](const R& r) { return r.block.camera.name; }, "Name of the camera"},
+       {"camera_test", &R::bundle, cameraTestFields(), "Test of the camera"},
+       {"images", [](const R& r) { return rated(r.bundle.images, r.bundle); }, imageFields(),
+        "Images"},
+       {"points", [](const R& r) { return rated(r.bundle.points, r.bundle); }, pointFields(),
+        "Points"},
+       {"lines", [](const R& r) { return rated(r.bundle.lines, r.bundle); }, lineFields(),
+        "Control lines"},
+       {"blunders", [](const R& r) { return r.bundle.blunders; }, blunderFields(), "Blunders"},
+       {"assigned_lines", &R::assignments, assignmentFields(), "Lines of images and control"},
+       {"lines_without_control", &R::unknown_lines, "Lines of the images without a control line"},
+       {"check_points", kSameObject, checkFields(), "Check points"},
+       {"residuals", residualsOf, residualFields(), "Residuals"},
+       {"warnings", [](const R& r) { return r.bundle.warnings; }, "What a user should know"},
+       {"tool_version", [](const R&) { return PCL_ALS_VERSION; }, "Version of pcl_als"}});
+  return fields;
+}
+
 std::string orientationJson(const ImageOrientationResult& result) {
-  const BundleResult& bundle = result.bundle;
-  Json json;
-  json["format"] = "pcl_als orientation";
-  json["version"] = 1;
-  json["rotation"] =
-      "ground = position + s Rx(omega) Ry(phi) Rz(kappa) (x, y, minus the focal length), image x "
-      "to the right, y up";
-  json["status"] = nameOf(bundle.status);
-  json["message"] = bundle.message;
-  json["sigma0"] = bundle.sigma0;
-  json["redundancy"] = bundle.redundancy;
-  if (!bundle.weakest.empty())
-    json["determined_worst"] = {{"name", bundle.weakest}, {"std_m", bundle.weakest_std}};
-  json["observations"] = bundle.observations;
-  json["unknowns"] = bundle.unknowns;
-  json["iterations"] = bundle.iterations;
-  json["camera"] = result.block.camera.name;
-  json["camera_test"] = {{"order", {"focal_length", "principal_point_x", "principal_point_y"}},
-                         {"indicated_correction_mm", listOf(bundle.interior)},
-                         {"std_mm", listOf(bundle.interior_std)}};
-  json["images"] = imagesOf(bundle);
-  json["points"] = pointsOf(bundle);
-  json["lines"] = linesOf(bundle);
-  json["blunders"] = blundersOf(bundle);
-  json["assigned_lines"] = assignmentsOf(result);
-  json["lines_without_control"] = result.unknown_lines;
-  json["check_points"] = checkOf(result);
-  json["residuals"] = residualsOf(result);
-  json["warnings"] = bundle.warnings;
-  json["tool_version"] = PCL_ALS_VERSION;
-  return json.dump(1) + "\n";
+  return jsonText(orientationFields().write(&result));
 }
 
 void writeOrientation(const std::filesystem::path& path, const ImageOrientationResult& result) {

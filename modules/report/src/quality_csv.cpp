@@ -8,6 +8,8 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/report/quality_report.h>
 
+#include "quality_fields.h"
+
 namespace pcl_als {
 namespace {
 
@@ -34,23 +36,22 @@ void forEachPair(const QualityReport& report, Row row) {
   for (const CheckedPair& pair : report.block.pairs) row(report.before ? "after" : "given", pair);
 }
 
-void summaryCells(const OffsetSummary& s, std::ostream& out) {
-  out << ',' << s.count;
-  if (s.count == 0) {
-    out << ",,,,,,,";
-    return;
-  }
-  for (const double value :
-       {s.mean, s.std_of_mean, s.median, s.std, s.rms, s.percentile_95, s.largest})
-    out << ',' << rounded(value, 5);
+/// The table of all items of all pairs, with the columns of their fields.
+template <typename Item, typename Items>
+std::string csvOf(const QualityReport& report, const Fields<Item>& fields, Items items) {
+  std::string text = "set,a,b," + fields.csvHeader();
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    const std::string begin = std::string(set) + ',' + quoted(pair.a) + ',' + quoted(pair.b) + ',';
+    for (const Item& item : items(pair)) text += begin + fields.csvLine(item);
+  });
+  return text;
 }
 
-std::string summaryNames(const std::string& what) {
-  std::string names;
-  for (const char* name : {"_places", "_mean_m", "_mean_std_m", "_median_m", "_sd_m", "_rms_m",
-                           "_p95_m", "_largest_m"})
-    names += "," + what + name;
-  return names;
+void summaryCells(const OffsetSummary& s, std::ostream& out) {
+  if (s.count == 0)
+    out << ",0,,,,,,,";
+  else
+    out << ',' << summaryFields().csvLine(s, "");
 }
 
 void alignmentCells(const std::optional<PatchAlignmentResult>& found, std::ostream& out) {
@@ -73,8 +74,8 @@ void alignmentCells(const std::optional<PatchAlignmentResult>& found, std::ostre
 
 std::string pairsCsv(const QualityReport& report) {
   std::ostringstream out;
-  out << "set,a,b,status,overlap_m2" << summaryNames("vertical") << ",cells_rms_m,level"
-      << summaryNames("normal")
+  out << "set,a,b,status,overlap_m2," << summaryFields().csvHeader("vertical_", "")
+      << ",cells_rms_m,level," << summaryFields().csvHeader("normal_", "")
       << ",shift_east_m,shift_north_m,shift_up_m,shift_east_std_m,shift_north_std_m,shift_up_std_m,"
          "flown,across_mm_per_100m,across_std,along_mm_per_100m,along_std,time_mm_per_s,time_std,"
          "scan_angle_mm_per_deg,scan_angle_std,roll_arcsec,roll_std,roll_b_arcsec,roll_b_std,"
@@ -109,37 +110,17 @@ std::string pairsCsv(const QualityReport& report) {
   return out.str();
 }
 
-std::string slopeAspectCsv(const QualityReport& report) {
-  std::ostringstream out;
-  out << "set,a,b,slope_from_deg,slope_to_deg,aspect,places,mean_m,rms_m\n";
-  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
-    for (const SlopeAspectClass& c : pair.assessment.classes) {
-      out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << c.slope_from << ','
-          << c.slope_to << ',' << aspectName(c.aspect) << ',' << c.count << ','
-          << (c.count == 0 ? "" : rounded(c.mean, 5)) << ','
-          << (c.count == 0 ? "" : rounded(c.rms, 5)) << '\n';
-    }
-  });
-  return out.str();
-}
-
 std::string profilesCsv(const QualityReport& report) {
-  std::ostringstream out;
-  out << "set,a,b,over,from,to,places,mean_m,sd_m\n";
-  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+  const auto bins = [](const CheckedPair& pair) {
     const OverlapTrends& t = pair.assessment.trends;
-    const std::pair<const char*, const std::vector<ProfileBin>*> profiles[] = {
-        {"distance_m", &t.by_distance},
-        {"time_s", &t.by_time},
-        {"scan_angle_deg", &t.by_scan_angle}};
-    for (const auto& [over, bins] : profiles)
-      for (const ProfileBin& bin : *bins)
-        out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << over << ','
-            << rounded(bin.from, 4) << ',' << rounded(bin.to, 4) << ',' << bin.count << ','
-            << (bin.count == 0 ? "" : rounded(bin.mean, 5)) << ','
-            << (bin.count == 0 ? "" : rounded(bin.std, 5)) << '\n';
-  });
-  return out.str();
+    std::vector<NamedBin> all;
+    for (const auto& [over, some] :
+         {std::pair("distance_m", &t.by_distance), std::pair("time_s", &t.by_time),
+          std::pair("scan_angle_deg", &t.by_scan_angle)})
+      for (const ProfileBin& bin : *some) all.push_back({over, bin});
+    return all;
+  };
+  return csvOf(report, namedBinFields(), bins);
 }
 
 std::string offsetsCsv(const QualityReport& report) {
@@ -195,9 +176,10 @@ std::string runCsv(const QualityReport& report) {
 }  // namespace
 
 void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report) {
+  const auto classes = [](const CheckedPair& pair) { return pair.assessment.classes; };
   writeFile(folder / "quality.md", "# Quality\n" + qualityText(report));
   writeFile(folder / "pairs.csv", pairsCsv(report));
-  writeFile(folder / "slope_aspect.csv", slopeAspectCsv(report));
+  writeFile(folder / "slope_aspect.csv", csvOf(report, classFields(), classes));
   writeFile(folder / "profiles.csv", profilesCsv(report));
   writeFile(folder / "offsets.csv", offsetsCsv(report));
   writeFile(folder / "run.csv", runCsv(report));

@@ -1,285 +1,343 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <cmath>
-
-#include <nlohmann/json.hpp>
-
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/io/json_text.h>
+#include <pcl_als/io/result_json.h>
 #include <pcl_als/processing/delivery_requirement.h>
 #include <pcl_als/report/quality_report.h>
 
-#include "excluded_json.h"
-#include "json_number.h"
+#include "quality_fields.h"
 
 namespace pcl_als {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using namespace field;
 
-Json summaryJson(const OffsetSummary& s) {
-  const bool any = s.count > 0;
-  return {{"places", s.count},
-          {"mean_m", number(s.mean, any)},
-          {"mean_std_m", number(s.std_of_mean)},
-          {"mean_std_formal_m", number(s.std_of_mean_formal)},
-          {"median_m", number(s.median, any)},
-          {"sd_m", number(s.std, any)},
-          {"nmad_m", number(s.nmad, any)},
-          {"rms_m", number(s.rms, any)},
-          {"percentile_95_m", number(s.percentile_95, any)},
-          {"largest_m", number(s.largest, any)}};
+FieldNames<FlightRelation> relationNames() {
+  using R = FlightRelation;
+  return {toString, {R::unknown, R::parallel, R::opposite, R::crossing}};
 }
 
-Json levelJson(const std::optional<int>& level) {
-  return level ? Json("QL" + std::to_string(*level)) : Json(nullptr);
+const Fields<Trend>& trendFields() {
+  static const Fields<Trend> fields(
+      "trend", "Change of the offset, in metres per unit of the name.",
+      {{"slope", &Trend::slope, "Change", knownIf(&Trend::determined)},
+       {"std", &Trend::std, "Its standard deviation", knownIf(&Trend::determined)}});
+  return fields;
 }
 
-Json trendJson(const Trend& trend) {
-  return {{"slope", number(trend.slope, trend.determined)},
-          {"std", number(trend.std, trend.determined)}};
+const Fields<OverlapTrends::Roll>& rollValueFields() {
+  using R = OverlapTrends::Roll;
+  static const Fields<R> fields("roll_b", "Roll error of the second strip.",
+                                {{"arcsec", &R::value, "Roll error", in(kRadiansPerArcsec),
+                                  of("arcsec"), knownIf(&R::determined)},
+                                 {"std_arcsec", &R::std, "Its standard deviation",
+                                  in(kRadiansPerArcsec), knownIf(&R::determined)}});
+  return fields;
 }
 
-Json rollJson(const OverlapTrends::Roll& roll) {
-  return {{"arcsec", number(roll.value / kRadiansPerArcsec, roll.determined)},
-          {"std_arcsec", number(roll.std / kRadiansPerArcsec, roll.determined)}};
+const Fields<OverlapTrends>& rollFields() {
+  using T = OverlapTrends;
+  const auto strips = [](const T& t) {
+    return t.relation == FlightRelation::opposite   ? "both"
+           : t.relation == FlightRelation::parallel ? "a - b"
+           : t.relation == FlightRelation::crossing ? "a"
+                                                    : "unknown";
+  };
+  static const Fields<T> fields(
+      "roll", "Roll error that explains the change across the overlap.",
+      {Field<T>::all(&T::roll, rollValueFields()),
+       {"of", strips, "Strips that have the error", oneOf({"both", "a - b", "a", "unknown"})}});
+  return fields;
 }
 
-Json binsJson(const std::vector<ProfileBin>& bins) {
-  Json list = Json::array();
-  for (const ProfileBin& bin : bins) {
-    if (bin.count == 0) continue;
-    list.push_back({{"from", bin.from},
-                    {"to", bin.to},
-                    {"places", bin.count},
-                    {"mean_m", bin.mean},
-                    {"sd_m", bin.std}});
-  }
-  return list;
+std::vector<ProfileBin> used(const std::vector<ProfileBin>& bins) {
+  std::vector<ProfileBin> some;
+  for (const ProfileBin& bin : bins)
+    if (bin.count > 0) some.push_back(bin);
+  return some;
 }
 
-Json trendsJson(const OverlapTrends& t) {
-  Json json = {{"flown", toString(t.relation)},
-               {"course_a", {t.course.x(), t.course.y()}},
-               {"centre_m", {t.centre.x(), t.centre.y()}},
-               {"across_m_per_m", trendJson(t.across)},
-               {"along_m_per_m", trendJson(t.along)},
-               {"time_m_per_s", trendJson(t.time)},
-               {"scan_angle_m_per_deg", trendJson(t.scan_angle)},
-               {"roll", rollJson(t.roll)}};
-  json["roll"]["of"] = t.relation == FlightRelation::opposite   ? "both"
-                       : t.relation == FlightRelation::parallel ? "a - b"
-                       : t.relation == FlightRelation::crossing ? "a"
-                                                                : "unknown";
-  if (t.relation == FlightRelation::crossing) json["roll_b"] = rollJson(t.roll_b);
-  json["profiles"] = {{"distance_m", binsJson(t.by_distance)},
-                      {"time_s", binsJson(t.by_time)},
-                      {"scan_angle_deg", binsJson(t.by_scan_angle)}};
-  return json;
+const Fields<ProfileBin>& binFields() {
+  using B = ProfileBin;
+  const auto any = knownIf([](const B& bin) { return bin.count > 0; });
+  static const Fields<B> fields("profile_bin", "Offsets of an interval.",
+                                {{"from", &B::from, "Begin of the interval", csv(4)},
+                                 {"to", &B::to, "End of the interval", csv(4)},
+                                 {"places", &B::count, "Number of places", csv(0)},
+                                 {"mean_m", &B::mean, "Mean offset", any, csv(5)},
+                                 {"sd_m", &B::std, "Standard deviation", any, csv(5)}});
+  return fields;
 }
 
-Json horizontalJson(const HorizontalShift& h) {
-  Json shift = Json::object(), std = Json::object(), formal = Json::object();
-  const char* const names[] = {"east_m", "north_m", "up_m"};
-  for (int i = 0; i < 3; ++i) {
-    shift[names[i]] = number(h.shift[i], h.determined);
-    std[names[i]] = number(h.std[i], h.determined);
-    formal[names[i]] = number(h.std_formal[i], h.determined);
-  }
-  Json json = {{"determined", h.determined},
-               {"places", h.count},
-               {"shift", shift},
-               {"std", std},
-               {"std_formal", formal}};
-  if (!h.determined) json["reason"] = h.reason;
-  return json;
+const Fields<OverlapTrends>& profileFields() {
+  using T = OverlapTrends;
+  const Fields<ProfileBin>& bins = binFields();
+  static const Fields<T> fields(
+      "profiles", "Offsets by intervals that have places.",
+      {{"distance_m", [](const T& t) { return used(t.by_distance); }, bins,
+        "Right of the centre line of the overlap, seen along the flight of a"},
+       {"time_s", [](const T& t) { return used(t.by_time); }, bins, "Time of a"},
+       {"scan_angle_deg", [](const T& t) { return used(t.by_scan_angle); }, bins,
+        "Scan angle of a"}});
+  return fields;
 }
 
-Json classesJson(const std::vector<SlopeAspectClass>& classes) {
-  Json list = Json::array();
-  for (const SlopeAspectClass& c : classes) {
-    if (c.count == 0) continue;
-    list.push_back({{"slope_from_deg", c.slope_from},
-                    {"slope_to_deg", c.slope_to},
-                    {"aspect", aspectName(c.aspect)},
-                    {"places", c.count},
-                    {"mean_m", c.mean},
-                    {"rms_m", c.rms}});
-  }
-  return list;
+const Fields<OverlapTrends>& trendsFields() {
+  using T = OverlapTrends;
+  static const Fields<T> fields(
+      "trends", "How offsets change over the overlap.",
+      {{"flown", &T::relation, relationNames(), "Directions of the flights"},
+       {"course_a", &T::course, "Plan unit vector of the flight of a: east, north"},
+       {"centre_m", &T::centre, "A point of the centre line of the overlap: east, north"},
+       {"across_m_per_m", &T::across, trendFields(), "To the right of the flight of a"},
+       {"along_m_per_m", &T::along, trendFields(), "Along it"},
+       {"time_m_per_s", &T::time, trendFields(), "With the time of a"},
+       {"scan_angle_m_per_deg", &T::scan_angle, trendFields(), "With the scan angle of a"},
+       {"roll", kSameObject, rollFields(), "As roll error"},
+       {"roll_b", &T::roll_b, rollValueFields(), "Roll error of b, if the flights cross",
+        onlyIf([](const T& t) { return t.relation == FlightRelation::crossing; })},
+       {"profiles", kSameObject, profileFields(), "Offsets by intervals"}});
+  return fields;
 }
 
-Json alignmentJson(const PatchAlignmentResult& r) {
-  Json json = {{"status", toString(r.status)}};
-  if (!r.message.empty()) json["message"] = r.message;
-  if (!r.hasConverged()) return json;
-  for (int i = 0; i < PatchAlignmentResult::kParameters; ++i) {
-    const bool angle = i >= 3;
-    const double unit = angle ? kRadiansPerDegree : 1.0;
-    const double value = angle ? r.motion.rotation[i - 3] : r.motion.shift[i];
-    const auto& parameter = r.parameters[static_cast<std::size_t>(i)];
-    Json entry = {{"value", number(value / unit, parameter.determined)},
-                  {"std", number(r.standardDeviation(i) / unit, parameter.determined)},
-                  {"unit", angle ? "deg" : "m"}};
-    if (!parameter.determined) entry["reason"] = parameter.reason;
-    json[PatchAlignmentResult::name(i)] = entry;
-  }
-  const Eigen::Vector3d& c = r.motion.centroid;
-  json["centroid_m"] = {c.x(), c.y(), c.z()};
-  json["sigma0_m"] = r.sigma0;
-  json["pairs"] = r.pairs;
-  json["redundancy"] = r.redundancy;
-  json["iterations"] = r.coarse_iterations + r.iterations;
-  json["normal_before_m"] = {{"mean", r.normal_before.mean}, {"rms", r.normal_before.rms}};
-  json["normal_after_m"] = {{"mean", r.normal_after.mean}, {"rms", r.normal_after.rms}};
-  return json;
+std::vector<SlopeAspectClass> usedClasses(const PairAssessment& p) {
+  std::vector<SlopeAspectClass> some;
+  for (const SlopeAspectClass& c : p.classes)
+    if (c.count > 0) some.push_back(c);
+  return some;
 }
 
-Json pairJson(const CheckedPair& pair) {
-  const PairAssessment& p = pair.assessment;
-  Json json = {{"a", pair.a}, {"b", pair.b}, {"status", toString(p.status)}};
-  if (!p.reason.empty()) json["reason"] = p.reason;
-  if (p.status == PairAssessment::Status::too_far) json["apart_m"] = p.apart;
-  json["overlap_m2"] = pair.overlap_area;
-  if (pair.alignment) json["icpatch"] = alignmentJson(*pair.alignment);
-  json["vertical"] = summaryJson(p.vertical);
-  json["vertical_cells"] = summaryJson(p.vertical_cells);
-  json["quality_level"] = levelJson(p.quality_level);
-  json["normal"] = summaryJson(p.normal);
-  json["horizontal"] = horizontalJson(p.horizontal);
-  json["slope_aspect"] = classesJson(p.classes);
-  json["trends"] = trendsJson(p.trends);
-  json["work"] = {{"areas", pair.areas},
-                  {"points_a", pair.points_a},
-                  {"points_b", pair.points_b},
-                  {"memory_mb", pair.memory_mb}};
-  return json;
+std::vector<Field<CheckedPair>> assessmentRows() {
+  using F = Field<CheckedPair>;
+  using P = PairAssessment;
+  static const Fields<P> fields(
+      "assessment", "Offsets of a pair.",
+      {{"vertical", &P::vertical, summaryFields(), "Smooth ground of single returns below 10°"},
+       {"vertical_cells", &P::vertical_cells, summaryFields(), "Means of cells of 25 m"},
+       {"quality_level", [](const P& p) { return nameOfLevel(p.quality_level); },
+        "Best level whose limit between swaths is kept"},
+       {"normal", &P::normal, summaryFields(), "All smooth surfaces, along the normal"},
+       {"horizontal", &P::horizontal, horizontalFields(), "Movement that slopes show"},
+       {"slope_aspect", usedClasses, classFields(), "Distances by slope and aspect"},
+       {"trends", &P::trends, trendsFields(), "How offsets change over the overlap"}});
+  static const Fields<CheckedPair> work(
+      "work", "What the comparison took.",
+      {{"areas", &CheckedPair::areas, "Areas of comparison"},
+       {"points_a", &CheckedPair::points_a, "Points of a in them"},
+       {"points_b", &CheckedPair::points_b, "Points of b in them"},
+       {"memory_mb", &CheckedPair::memory_mb, "Memory of points and surfaces"}});
+  return {F::all(&CheckedPair::assessment, fields),
+          {"work", kSameObject, work, "What the comparison took"}};
 }
 
-/// The ASPRS figures of control; none without a point.
-void addAccuracy(const ControlAssessment& control, Json& json) {
-  if (!control.accuracy) return;
-  const VerticalAccuracy& v = *control.accuracy;
-  const bool classed = control.no_class.empty();
-  json["asprs"] = {{"standard", kPositionalStandard},
-                   {"rmse_v_m", v.rmse_v},
-                   {"fit_m", v.fit},
-                   {"survey_m", v.survey},
-                   {"survey_known", control.survey_known},
-                   {"class_cm", number(v.class_cm, classed)},
-                   {"enough_points", v.enough_points}};
-  if (!classed) json["asprs"]["no_class_because"] = control.no_class;
-  json["asprs_older"] = {{"standard", kOlderPositionalStandard}, {"nva_95_m", v.nva_95}};
-  json["quality_level"] = levelJson(control.quality_level);
+const Fields<CheckedPair>& pairFields() {
+  using P = CheckedPair;
+  using Status = PairAssessment::Status;
+  static const Fields<P> fields("pair", "Two overlapping strips. Offsets are a - b.", [] {
+    std::vector<Field<P>> rows = {
+        {"a", &P::a, "First strip"},
+        {"b", &P::b, "Second strip"},
+        {"status", [](const P& p) { return p.assessment.status; },
+         FieldNames<Status>(toString,
+                            {Status::judged, Status::too_little, Status::copy, Status::too_far}),
+         "Whether the pair was measured"},
+        {"reason", [](const P& p) { return p.assessment.reason; }, "Why it is not measured",
+         unlessEmpty},
+        {"apart_m", [](const P& p) { return p.assessment.apart; }, "Height of a above b",
+         onlyIf([](const P& p) { return p.assessment.status == Status::too_far; })},
+        {"overlap_m2", &P::overlap_area, "Area of the overlap"},
+        {"icpatch", &P::alignment, alignmentFields(), "Rigid movement of a onto b (ICPatch)",
+         unlessEmpty}};
+    for (auto& row : assessmentRows()) rows.push_back(std::move(row));
+    return rows;
+  }());
+  return fields;
 }
 
-Json controlJson(const ControlAssessment& control) {
-  Json json = {{"points", control.points},
-               {"unseen", control.unseen},
-               {"far", control.far},
-               {"offsets", Json::array()},
-               {"shift_onto_control", horizontalJson(control.shift)},
-               {"all", summaryJson(control.all)},
-               {"strips", Json::array()},
-               {"differences", Json::array()}};
-  json["shift_onto_control"]["significant"] = isSignificantInPlan(control.shift);
-  for (const CommonOffset& common : control.offsets)
-    json["offsets"].push_back({{"strip", common.strip.empty() ? Json(nullptr) : Json(common.strip)},
-                               {"offset_m", common.offset},
-                               {"std_m", common.std},
-                               {"points", common.points},
-                               {"covered", common.covered}});
-  for (const auto& strip : control.strips) {
-    Json entry = summaryJson(strip.offsets);
-    entry["strip"] = strip.strip;
-    json["strips"].push_back(entry);
-  }
-  for (const ControlDifference& d : control.differences) {
-    Json entry = {{"point", d.point},
-                  {"strip", d.strip},
-                  {"above_m", d.above},
-                  {"slope_deg", d.slope / kRadiansPerDegree},
-                  {"roughness_m", d.roughness}};
-    if (!d.unfit.empty()) entry["left_out_because"] = d.unfit;
-    json["differences"].push_back(entry);
-  }
-  addAccuracy(control, json);
-  return json;
+const Fields<CheckedStrip>& stripFields() {
+  using S = CheckedStrip;
+  static const Fields<S> fields(
+      "strip", "A strip.",
+      {{"id", &S::id, "Name of the strip"},
+       {"points", &S::points, "Number of points"},
+       {"repeated_share", &S::repeated, "Share of points with the coordinates of another point"},
+       {"course", &S::course, "Plan unit vector of the flight: east, north"}});
+  return fields;
 }
 
-Json blockJson(const CheckedBlock& block) {
-  Json json = {{"inputs", block.files}, {"strips", Json::array()}, {"pairs", Json::array()}};
-  for (const CheckedStrip& strip : block.strips) {
-    Json entry = {{"id", strip.id}, {"points", strip.points}, {"repeated_share", strip.repeated}};
-    entry["course"] = strip.course ? Json({strip.course->x(), strip.course->y()}) : Json(nullptr);
-    json["strips"].push_back(entry);
-  }
-  for (const CheckedPair& pair : block.pairs) json["pairs"].push_back(pairJson(pair));
-  const PairCounts counts = countPairs(block.pairs);
-  json["pair_counts"] = {{"measured", counts.measured},
-                         {"of_one_pass", counts.of_one_pass},
-                         {"too_far", counts.too_far},
-                         {"unmeasurable", counts.unmeasurable},
-                         {"too_small", counts.too_small}};
-  json["triangles"] = Json::array();
-  for (const TriangleClosure& t : block.triangles)
-    json["triangles"].push_back({{"strips", {t.a, t.b, t.c}},
-                                 {"cells", t.cells},
-                                 {"closure_m", t.closure},
-                                 {"std_m", t.std}});
-  json["icpatch_triangles"] = Json::array();
-  for (const MotionClosure& m : block.motions)
-    json["icpatch_triangles"].push_back(
-        {{"strips", {m.a, m.b, m.c}},
-         {"closure_m", {m.closure.x(), m.closure.y(), m.closure.z()}},
-         {"std_m", {m.std.x(), m.std.y(), m.std.z()}}});
-  if (block.control) json["control"] = controlJson(*block.control);
-  if (block.separation) {
-    const SeparationSummary& s = *block.separation;
-    json["swath_separation"] = {
-        {"cell_m", s.cell},       {"green_up_to_m", s.limit}, {"yellow_up_to_m", 2.0 * s.limit},
-        {"green_cells", s.green}, {"yellow_cells", s.yellow}, {"red_cells", s.red},
-        {"files", s.files}};
-  }
-  json["smooth_roughness_m"] = block.roughness_limit;
-  json["warnings"] = textsOf(block.warnings);
-  json["left_out"] = excludedJson(block.excluded);
-  return json;
+const Fields<PairCounts>& countFields() {
+  using C = PairCounts;
+  static const Fields<C> fields(
+      "pair_counts", "How many overlapping pairs were measured, and why the others were not.",
+      {{"measured", &C::measured, "Of two passes"},
+       {"of_one_pass", &C::of_one_pass, "Measured, but of one pass"},
+       {"too_far", &C::too_far, "Further apart than surfaces are compared"},
+       {"unmeasurable", &C::unmeasurable, "Too little in common, or the same points twice"},
+       {"too_small", &C::too_small, "Too small overlap, not measured"}});
+  return fields;
 }
 
-Json requirementJson(const DeliveryRequirement& requirement) {
-  return {{"required_level", "QL" + std::to_string(requirement.level)},
-          {"kept", requirement.kept},
-          {"pairs_measured", requirement.pairs},
-          {"control_points", requirement.control_points},
-          {"reasons", requirement.reasons}};
+template <typename T>
+std::vector<std::string> threeOf(const T& triangle) {
+  return {triangle.a, triangle.b, triangle.c};
 }
 
-Json limitsJson(int required) {
-  Json list = Json::array();
-  for (const QualityLevelLimits& level : qualityLevels()) {
-    list.push_back({{"level", "QL" + std::to_string(level.level)},
-                    {"rmsdz_m", level.swath_overlap_rmsdz},
-                    {"absolute_rmsez_m", level.absolute_rmsez}});
-  }
-  return {{"required", "QL" + std::to_string(required)},
-          {"relative", kSwathSpecification},
-          {"absolute", kAbsoluteSpecification},
-          {"horizontal", kSwathGuidelines},
-          {"levels", list}};
+const Fields<TriangleClosure>& triangleFields() {
+  using T = TriangleClosure;
+  static const Fields<T> fields(
+      "triangle", "Closure of height differences around three strips, a-b + b-c - (a-c).",
+      {{"strips", threeOf<T>, "The strips a, b and c"},
+       {"cells", &T::cells, "Cells that all three pairs have"},
+       {"closure_m", &T::closure, "Mean closure"},
+       {"std_m", &T::std, "Standard deviation of the mean"}});
+  return fields;
+}
+
+const Fields<MotionClosure>& motionFields() {
+  using M = MotionClosure;
+  static const Fields<M> fields(
+      "icpatch_triangle", "Difference of the movements a to b to c and a to c.",
+      {{"strips", threeOf<M>, "The strips a, b and c"},
+       {"closure_m", &M::closure, "Difference: east, north, up"},
+       {"std_m", &M::std, "Standard deviations, of independent alignments"}});
+  return fields;
+}
+
+const Fields<SeparationSummary>& separationFields() {
+  using S = SeparationSummary;
+  static const Fields<S> fields(
+      "swath_separation", "Swath separation images.",
+      {{"cell_m", &S::cell, "Size of a cell"},
+       {"green_up_to_m", &S::limit, "Largest separation of green cells"},
+       {"yellow_up_to_m", [](const S& s) { return 2.0 * s.limit; }, "And of yellow cells"},
+       {"green_cells", &S::green, "Number of green cells"},
+       {"yellow_cells", &S::yellow, "Number of yellow cells"},
+       {"red_cells", &S::red, "Number of red cells"},
+       {"files", &S::files, "Files of the images"}});
+  return fields;
+}
+
+const Fields<CheckedBlock>& blockFields() {
+  using B = CheckedBlock;
+  static const Fields<B> fields(
+      "block", "One set of strips.",
+      {{"inputs", &B::files, "Files of the points"},
+       {"strips", &B::strips, stripFields(), "Strips"},
+       {"pairs", &B::pairs, pairFields(), "Overlapping pairs"},
+       {"pair_counts", [](const B& b) { return countPairs(b.pairs); }, countFields(),
+        "Numbers of pairs"},
+       {"triangles", &B::triangles, triangleFields(), "Closures of height differences"},
+       {"icpatch_triangles", &B::motions, motionFields(), "Closures of movements"},
+       {"control", &B::control, controlFields(), "Strips against control", unlessEmpty},
+       {"swath_separation", &B::separation, separationFields(), "Images", unlessEmpty},
+       {"smooth_roughness_m", &B::roughness_limit, "Largest roughness of smooth surfaces"},
+       {"warnings", [](const B& b) { return textsOf(b.warnings); }, "What a user should know"},
+       {"left_out", &B::excluded, excludedFields(), "Points that took no part"}});
+  return fields;
+}
+
+const Fields<DeliveryRequirement>& requirementFields() {
+  using R = DeliveryRequirement;
+  static const Fields<R> fields(
+      "requirement", "Whether the delivery keeps the required level.",
+      {{"required_level", [](const R& r) { return levelName(r.level); }, "Required level"},
+       {"kept", &R::kept, "Whether it is kept"},
+       {"pairs_measured", &R::pairs, "Pairs that were measured"},
+       {"control_points", &R::control_points, "Control points that were used"},
+       {"reasons", &R::reasons, "Why it is not kept"}});
+  return fields;
+}
+
+const Fields<QualityReport>& limitFields() {
+  using L = QualityLevelLimits;
+  using R = QualityReport;
+  using F = Field<R>;
+  static const Fields<L> level("level", "Limits of a quality level.",
+                               {{"level", [](const L& l) { return levelName(l.level); }, "Level"},
+                                {"rmsdz_m", &L::swath_overlap_rmsdz, "Limit between swaths"},
+                                {"absolute_rmsez_m", &L::absolute_rmsez, "Limit at control"}});
+  const auto all = [](const R&) {
+    return std::vector<L>(qualityLevels().begin(), qualityLevels().end());
+  };
+  static const Fields<R> fields(
+      "limits", "The limits that apply.",
+      {{"required", [](const R& r) { return levelName(r.quality_level); }, "Required level"},
+       F::constant("relative", kSwathSpecification, "Source of the limits between swaths"),
+       F::constant("absolute", kAbsoluteSpecification, "Source of the limits at control"),
+       F::constant("horizontal", kSwathGuidelines, "Source of the movements on slopes"),
+       {"levels", all, level, "Limits of all levels"}});
+  return fields;
 }
 
 }  // namespace
 
+std::optional<std::string> nameOfLevel(const std::optional<int>& level) {
+  return level ? std::optional(levelName(level)) : std::nullopt;
+}
+
+const Fields<NamedBin>& namedBinFields() {
+  static const Fields<NamedBin> fields(
+      "profiles.csv", "Offsets by pair and interval.",
+      {{"over", &NamedBin::over, "Quantity of the intervals, with its unit", csv(0)},
+       Field<NamedBin>("", &NamedBin::bin, binFields(), "", csv(""))});
+  return fields;
+}
+
+const Fields<SlopeAspectClass>& classFields() {
+  using C = SlopeAspectClass;
+  const auto any = knownIf([](const C& c) { return c.count > 0; });
+  static const Fields<C> fields(
+      "slope_aspect", "Distances on slopes of one class of slope and aspect.",
+      {{"slope_from_deg", &C::slope_from, "Least slope", csv(0)},
+       {"slope_to_deg", &C::slope_to, "Largest slope", csv(0)},
+       {"aspect", [](const C& c) { return aspectName(c.aspect); }, "Downhill direction, or all",
+        csv(0)},
+       {"places", &C::count, "Number of places", csv(0)},
+       {"mean_m", &C::mean, "Mean distance a - b along the normal", any, csv(5)},
+       {"rms_m", &C::rms, "RMS distance", any, csv(5)}});
+  return fields;
+}
+
+const Fields<OffsetSummary>& summaryFields() {
+  using S = OffsetSummary;
+  const auto any = knownIf([](const S& s) { return s.count > 0; });
+  static const Fields<S> fields(
+      "offset_summary", "Statistics of signed offsets; null without a place.",
+      {{"places", &S::count, "Number of places", csv(0)},
+       {"mean_m", &S::mean, "Mean", any, csv(5)},
+       {"mean_std_m", &S::std_of_mean, "Standard deviation of the mean, places correlated", csv(5)},
+       {"mean_std_formal_m", &S::std_of_mean_formal, "The same with cells of 25 m independent"},
+       {"median_m", &S::median, "Median", any, csv(5)},
+       {"sd_m", &S::std, "Standard deviation", any, csv(5)},
+       {"nmad_m", &S::nmad, "1.4826 times the median absolute deviation", any},
+       {"rms_m", &S::rms, "Root mean square", any, csv(5)},
+       {"percentile_95_m", &S::percentile_95, "95th percentile of the absolute values", any,
+        csv("p95_m", 5)},
+       {"largest_m", &S::largest, "Largest absolute value", any, csv(5)}});
+  return fields;
+}
+
+const FieldTable& qualityFields() {
+  using R = QualityReport;
+  using F = Field<R>;
+  static const Fields<R> fields(
+      "quality", "Result of `pcl_als_check`. Unknown values are null.",
+      {F::constant("format", "pcl_als quality", ""),
+       F::constant("version", 1, ""),
+       {"tool_version", [](const R&) { return PCL_ALS_VERSION; }, "Version of pcl_als"},
+       F::constant("signs", "offsets are a - b, shifts move a onto b, control is strip - control",
+                   "Signs of all values"),
+       {"limits", kSameObject, limitFields(), "The limits that apply"},
+       {"requirement", [](const R& r) { return requireLevel(r.block, r.quality_level); },
+        requirementFields(), "Whether the delivery keeps the required level"},
+       F::all(&R::block, blockFields()),
+       {"before", &R::before, blockFields(), "The same of the other set", unlessEmpty}});
+  return fields;
+}
+
 std::string qualityJson(const QualityReport& report) {
-  Json json = {{"format", "pcl_als quality"},
-               {"version", 1},
-               {"tool_version", PCL_ALS_VERSION},
-               {"signs", "offsets are a - b, shifts move a onto b, control is strip - control"},
-               {"limits", limitsJson(report.quality_level)},
-               {"requirement", requirementJson(requireLevel(report.block, report.quality_level))}};
-  json.update(blockJson(report.block));
-  if (report.before) json["before"] = blockJson(*report.before);
-  return json.dump(1) + '\n';
+  return jsonText(qualityFields().write(&report));
 }
 
 }  // namespace pcl_als

@@ -14,6 +14,8 @@
 
 namespace pcl_als {
 
+class FieldTable;
+
 /// The content of accuracy.json.
 struct AccuracyReport {
   ConfusionMatrix matrix;
@@ -34,6 +36,8 @@ AccuracyReport accuracyOfFiles(const std::string& input, const std::string& othe
 std::string accuracyText(const AccuracyReport& report);
 /// The text of accuracy.json.
 std::string accuracyJson(const AccuracyReport& report);
+/// The description of accuracy.json.
+const FieldTable& accuracyFields();
 void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& report);
 
 ConfusionMatrix matrixOf(const CountTable& table);

@@ -9,11 +9,15 @@
 
 namespace pcl_als {
 
+class FieldTable;
+
 /// Result for the terminal: precision, blunders, and differences at check points.
 std::string orientationText(const ImageOrientationResult& result);
 
 /// The text of orientation.json.
 std::string orientationJson(const ImageOrientationResult& result);
+/// The description of orientation.json.
+const FieldTable& orientationFields();
 /// Writes orientation.json (module photogrammetry's README has the format). Through AtomicFile.
 void writeOrientation(const std::filesystem::path& path, const ImageOrientationResult& result);
 

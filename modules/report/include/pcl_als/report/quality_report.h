@@ -11,6 +11,8 @@
 
 namespace pcl_als {
 
+class FieldTable;
+
 /// The two sets of a check; before: empty when there is one set only.
 struct QualityReport {
   CheckedBlock block;
@@ -32,8 +34,10 @@ std::vector<QualityTable> qualityTables(const QualityReport& report);
 /// The tables and the conclusions from them, for a terminal.
 std::string qualityText(const QualityReport& report);
 
-/// quality.json; its keys are in the README of module quality.
+/// The text of quality.json.
 std::string qualityJson(const QualityReport& report);
+/// The description of quality.json.
+const FieldTable& qualityFields();
 
 /// Writes quality.md, pairs.csv, control.csv, slope_aspect.csv, profiles.csv, offsets.csv and
 /// run.csv (times and memory, which differ from run to run), each complete or not at all.
