@@ -12,8 +12,8 @@ namespace pcl_als {
 namespace fs = std::filesystem;
 
 bool isPointExtension(const std::string& extension) {
-  return extension == ".las" || extension == ".laz" || extension == ".pcd" ||
-         extension == ".ply" || extension == ".xyz";
+  return extension == ".las" || extension == ".laz" || extension == ".pcd" || extension == ".ply" ||
+         extension == ".xyz";
 }
 
 bool isPointFile(const fs::path& file) {
