@@ -97,7 +97,7 @@ std::optional<std::string> contentOf(const fs::path& file) {
   return content;
 }
 
-fs::path listOf(const fs::path& file) {
+fs::path pathOfList(const fs::path& file) {
   return fs::absolute(file).parent_path() / FileProtection::kList;
 }
 
@@ -152,7 +152,7 @@ bool isReplaceable(const fs::path& file) {
   if (fs::symlink_status(file, error).type() == fs::file_type::not_found) return true;
   const std::optional<std::string> content = contentOf(file);
   if (!content) return false;
-  std::ifstream list(listOf(file));
+  std::ifstream list(pathOfList(file));
   const std::string entry = *content + ' ' + file.filename().string();
   for (std::string line; std::getline(list, line);)
     if (line == entry) return true;
@@ -191,7 +191,7 @@ void listOutput(const fs::path& file, const fs::path& complete) {
   if (!ProtectionRegistry::get().isGuarded(file)) return;
   const std::optional<std::string> content = contentOf(complete);
   if (!content) return;
-  const fs::path path = listOf(file);
+  const fs::path path = pathOfList(file);
   std::error_code error;
   std::string entry = fs::exists(path, error) ? "" : std::string(kTitle) + '\n';
   entry += *content + ' ' + file.filename().string() + '\n';
