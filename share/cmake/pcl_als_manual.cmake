@@ -26,7 +26,7 @@ foreach(page IN LISTS pages ITEMS README.md CHANGELOG.md CITATION.cff CONTRIBUTI
   get_filename_component(folder ${page} DIRECTORY)
   install(FILES ${page} DESTINATION ${PCL_ALS_MANUAL_DIR}/${folder} COMPONENT documentation)
 endforeach()
-install(DIRECTORY share/examples share/benchmark DESTINATION ${PCL_ALS_MANUAL_DIR}/share
+install(DIRECTORY share/examples share/benchmark share/schema DESTINATION ${PCL_ALS_MANUAL_DIR}/share
   COMPONENT documentation
   USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY ${CMAKE_BINARY_DIR}/manual/html DESTINATION ${PCL_ALS_MANUAL_DIR}

@@ -20,7 +20,7 @@ std::string quoted(const std::string& text) {
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + '"';
 }
-std::string rounded(double value, int digits) {
+std::string decimalText(double value, int digits) {
   if (!std::isfinite(value)) return {};
   std::ostringstream out;
   out << std::fixed << std::setprecision(digits) << value;
@@ -65,11 +65,11 @@ void alignmentCells(const std::optional<PatchAlignmentResult>& found, std::ostre
     const double unit = angle ? kRadiansPerDegree : 1.0;
     const double value = angle ? found->motion.rotation[i - 3] : found->motion.shift[i];
     const bool known = found->parameters[static_cast<std::size_t>(i)].determined;
-    out << ',' << (known ? rounded(value / unit, 6) : "") << ','
-        << (known ? rounded(found->standardDeviation(i) / unit, 6) : "");
+    out << ',' << (known ? decimalText(value / unit, 6) : "") << ','
+        << (known ? decimalText(found->standardDeviation(i) / unit, 6) : "");
   }
-  for (int i = 0; i < 3; ++i) out << ',' << rounded(found->motion.centroid[i], 3);
-  out << ',' << rounded(found->sigma0, 5);
+  for (int i = 0; i < 3; ++i) out << ',' << decimalText(found->motion.centroid[i], 3);
+  out << ',' << decimalText(found->sigma0, 5);
 }
 
 std::string pairsCsv(const QualityReport& report) {
@@ -85,27 +85,28 @@ std::string pairsCsv(const QualityReport& report) {
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     const PairAssessment& p = pair.assessment;
     out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << toString(p.status) << ','
-        << rounded(pair.overlap_area, 0);
+        << decimalText(pair.overlap_area, 0);
     summaryCells(p.vertical, out);
-    out << ',' << (p.vertical_cells.count == 0 ? "" : rounded(p.vertical_cells.rms, 5)) << ','
+    out << ',' << (p.vertical_cells.count == 0 ? "" : decimalText(p.vertical_cells.rms, 5)) << ','
         << levelName(p.quality_level);
     summaryCells(p.normal, out);
     for (const Eigen::Vector3d& v : {p.horizontal.shift, p.horizontal.std})
-      for (int i = 0; i < 3; ++i) out << ',' << (p.horizontal.determined ? rounded(v[i], 5) : "");
+      for (int i = 0; i < 3; ++i)
+        out << ',' << (p.horizontal.determined ? decimalText(v[i], 5) : "");
     out << ',' << toString(p.trends.relation);
     const auto trend = [&](const Trend& t, double factor) {
-      out << ',' << (t.determined ? rounded(factor * t.slope, 4) : "") << ','
-          << (t.determined ? rounded(factor * t.std, 4) : "");
+      out << ',' << (t.determined ? decimalText(factor * t.slope, 4) : "") << ','
+          << (t.determined ? decimalText(factor * t.std, 4) : "");
     };
     trend(p.trends.across, 1e5);
     trend(p.trends.along, 1e5);
     trend(p.trends.time, 1e3);
     trend(p.trends.scan_angle, 1e3);
     for (const OverlapTrends::Roll& roll : {p.trends.roll, p.trends.roll_b})
-      out << ',' << (roll.determined ? rounded(roll.value / kRadiansPerArcsec, 2) : "") << ','
-          << (roll.determined ? rounded(roll.std / kRadiansPerArcsec, 2) : "");
+      out << ',' << (roll.determined ? decimalText(roll.value / kRadiansPerArcsec, 2) : "") << ','
+          << (roll.determined ? decimalText(roll.std / kRadiansPerArcsec, 2) : "");
     alignmentCells(pair.alignment, out);
-    out << ',' << rounded(pair.memory_mb, 1) << '\n';
+    out << ',' << decimalText(pair.memory_mb, 1) << '\n';
   });
   return out.str();
 }
@@ -130,13 +131,13 @@ std::string offsetsCsv(const QualityReport& report) {
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     for (const OffsetSample& s : pair.samples) {
       out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b);
-      for (int i = 0; i < 3; ++i) out << ',' << rounded(s.position[i], 3);
-      out << ',' << rounded(pair.assessment.trends.distance(s.position), 2) << ','
-          << rounded(s.time_a, 4) << ',' << rounded(s.time_b, 4) << ','
-          << rounded(s.scan_angle_a, 2) << ',' << rounded(s.scan_angle_b, 2) << ','
-          << rounded(s.slope / kRadiansPerDegree, 2) << ','
-          << (s.level ? rounded(s.vertical, 4) : "") << ','
-          << (s.conjugate ? rounded(s.normal_distance, 4) : "") << '\n';
+      for (int i = 0; i < 3; ++i) out << ',' << decimalText(s.position[i], 3);
+      out << ',' << decimalText(pair.assessment.trends.distance(s.position), 2) << ','
+          << decimalText(s.time_a, 4) << ',' << decimalText(s.time_b, 4) << ','
+          << decimalText(s.scan_angle_a, 2) << ',' << decimalText(s.scan_angle_b, 2) << ','
+          << decimalText(s.slope / kRadiansPerDegree, 2) << ','
+          << (s.level ? decimalText(s.vertical, 4) : "") << ','
+          << (s.conjugate ? decimalText(s.normal_distance, 4) : "") << '\n';
     }
   });
   return out.str();
@@ -149,9 +150,9 @@ std::string controlCsv(const QualityReport& report) {
     if (!block.control) return;
     for (const ControlDifference& d : block.control->differences) {
       out << set << ',' << quoted(d.point) << ',' << quoted(d.strip);
-      for (int i = 0; i < 3; ++i) out << ',' << rounded(d.position[i], 4);
-      out << ',' << rounded(d.above, 4) << ',' << rounded(d.slope / kRadiansPerDegree, 2) << ','
-          << rounded(d.roughness, 4) << ',' << quoted(d.unfit) << '\n';
+      for (int i = 0; i < 3; ++i) out << ',' << decimalText(d.position[i], 4);
+      out << ',' << decimalText(d.above, 4) << ',' << decimalText(d.slope / kRadiansPerDegree, 2)
+          << ',' << decimalText(d.roughness, 4) << ',' << quoted(d.unfit) << '\n';
     }
     for (const std::string& point : block.control->unseen)
       out << set << ',' << quoted(point) << ",,,,,,,,no strip covers it\n";
@@ -167,9 +168,9 @@ std::string runCsv(const QualityReport& report) {
   out << "set,a,b,milliseconds,peak_memory_mb\n";
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ','
-        << rounded(pair.milliseconds, 1) << ",\n";
+        << decimalText(pair.milliseconds, 1) << ",\n";
   });
-  out << "all,,,," << rounded(report.peak_memory_mb, 1) << '\n';
+  out << "all,,,," << decimalText(report.peak_memory_mb, 1) << '\n';
   return out.str();
 }
 
