@@ -7,8 +7,10 @@
 #include <utility>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/time_unit.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/point_classes.h>
