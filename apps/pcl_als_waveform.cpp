@@ -19,8 +19,8 @@ CommandLine commandLine() {
       "decomposes the waveforms of a LAS or LAZ file (point formats 4, 5, 9 and 10, packets in the "
       "file or in a .wdp beside it) into echoes, and writes all of them as points.\n"
       "Extra bytes: amplitude (digitizer counts), echo_width and echo_width_std (full width at "
-      "half "
-      "maximum, ns), range_std (m), number_of_samples_saturated, new_echo (1: an echo that the "
+      "half maximum, ns), range_std (m), number_of_samples_saturated, new_echo (1: an echo that "
+      "the "
       "scanner did not return; it is flagged as synthetic). Everything else of the records is "
       "kept; return numbers follow the times of the echoes where some are added.",
       "IN OUT [options]", "pcl_als_waveform strip1.las echoes.laz -pulse_width 4.8");
@@ -28,7 +28,8 @@ CommandLine commandLine() {
   line.addNumber("pulse_width",
                  "full width at half maximum of the response of the system to a point target, a "
                  "Gaussian (default: the commonest width of single echoes)",
-                 std::nullopt, {0.05, 1000.0, "ns"});
+                 std::nullopt, {0.05, 1000.0, "ns"})
+      .in(app::Group::inputs);
   line.addInputFile("pulse",
                     "the response by samples, such as the emitted pulse: CSV time_ns,value, evenly "
                     "spaced, with a baseline of zero");
@@ -45,8 +46,9 @@ CommandLine commandLine() {
                  "digitizer count from which a sample is saturated (default: the largest that the "
                  "bits of a sample hold)",
                  std::nullopt, {1.0, 4294967295.0, "counts"});
-  line.addFlag("only_returns", "write no new echoes");
-  line.addFlag("move_returns", "move returns along their pulse to their echoes");
+  line.addFlag("only_returns", "write no new echoes").in(app::Group::output);
+  line.addFlag("move_returns", "move returns along their pulse to their echoes")
+      .in(app::Group::output);
   return line;
 }
 

@@ -3,6 +3,7 @@
 #include "ply_header.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <vector>

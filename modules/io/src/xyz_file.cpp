@@ -3,6 +3,7 @@
 #include "xyz_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <pcl_als/common/errors.h>

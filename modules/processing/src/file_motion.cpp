@@ -11,6 +11,7 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/applied_correction.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/file_motion.h>
 
