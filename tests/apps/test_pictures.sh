@@ -105,7 +105,7 @@ expect 1 "rainbow" view "${strips[0]}" -output none.png -color_map rainbow
 expect 1 "LOW below HIGH" view "${strips[0]}" -output none.png -color_range 5:1
 expect 1 "shade" view "${strips[0]}" -output none.png -shade moon
 expect 1 "bounds" view "${strips[0]}" -output none.png -bounds 1,2,3
-expect 2 "no point to draw" view "${strips[0]}" -output none.png -bounds 1,1,2,2
+expect 2 "no point lies within the bounds" view "${strips[0]}" -output none.png -bounds 1,1,2,2
 expect 2 "missing.las" view missing.las -output none.png
 expect 2 "cannot be created: the folder does not exist" view "${strips[0]}" -output nowhere/none.png
 expect 1 ".png" view "${strips[0]}" -output none.jpg
