@@ -127,4 +127,7 @@ function(als_add_test)
     PCL_ALS_TEST_SCRATCH="${CMAKE_CURRENT_BINARY_DIR}/scratch"
     PCL_ALS_TEST_DATA_DEFAULT="${PCL_ALS_TEST_DATA}")
   add_test(NAME ${ARG_NAME} COMMAND ${ARG_NAME})
+  if(NOT ARG_NAME IN_LIST PCL_ALS_LONG_TESTS)
+    set_tests_properties(${ARG_NAME} PROPERTIES LABELS fast)
+  endif()
 endfunction()

@@ -8,7 +8,7 @@
 #   format         clang-format on every C++ file
 #   architecture   dependencies of modules, lengths, words, pages
 #   install        packages, installed headers, consumers, the Python wheel, a build without options
-#   slow           tests of more than a minute
+#   slow           tests that start tools a thousand times
 #   tidy           clang-tidy on all modules and tools
 #   headers        every source compiles on its own, without precompiled headers
 #   no-unity       the tools are built and linked without unity build and precompiled headers
