@@ -39,8 +39,8 @@ TEST(PointReader, ReadsChunksInFileOrder) {
 
 TEST(PointReader, RefusesOtherExtensions) {
   const auto folder = test::scratch("point_reader_extension");
-  test::writeBytes(folder / "a.xyz", "1 2 3\n");
-  EXPECT_THROW(PointReader::open(folder / "a.xyz"), InputError);
+  test::writeBytes(folder / "a.e57", "1 2 3\n");
+  EXPECT_THROW(PointReader::open(folder / "a.e57"), InputError);
   EXPECT_THROW(PointReader::open(folder / "missing.las"), InputError);
   EXPECT_THROW(PointReader::open(folder / "missing.pcd"), InputError);
 }
