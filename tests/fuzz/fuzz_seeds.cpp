@@ -165,7 +165,7 @@ std::vector<std::string> plySeeds() {
 
 std::vector<std::string> xyzSeeds() {
   return {"x y z gps_time intensity point_source_id\n1 2 3 230038.25 7 1\n4.5 nan 6e0 230039 8 1\n",
-          "# pcl_als crs EPSG:32611\n//X,Y,Z,Class\n583390.125,5283100.5,3,2\n", "1 2 3\n\n4 5 6",
+          "# pcl_als strip 7\n//X,Y,Z,Class\n583390.125,5283100.5,3,2\n", "1 2 3\n\n4 5 6",
           "x;y;z;user_data;skip\r\n1;2;3;255;word\r\n"};
 }
 
