@@ -20,7 +20,10 @@ class OpenObjects {
  public:
   explicit OpenObjects(std::string file) : file_(std::move(file)) {}
 
-  bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
+  bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
+    if (depth > kDeepest)
+      throw InputError(file_ + ": values are nested in more than " + std::to_string(kDeepest) +
+                       " levels");
     if (event == Json::parse_event_t::object_start) keys_.emplace_back();
     if (event == Json::parse_event_t::object_end) keys_.pop_back();
     if (event != Json::parse_event_t::key) return true;
@@ -33,6 +36,8 @@ class OpenObjects {
   }
 
  private:
+  static constexpr int kDeepest = 100;  ///< values are converted and deleted recursively
+
   std::string file_;
   std::vector<std::set<std::string>> keys_;
 };
