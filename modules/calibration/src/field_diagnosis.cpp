@@ -39,10 +39,16 @@ void removeCorrections(const std::vector<AreaMatcher::StripCorrection>& correcti
         o.effectAtPoint(of(o.a)) - o.effectAtPatch(of(o.b)) + o.effectOfSources(sources);
 }
 
-/// The share of each area that determines differences well enough.
-double shareFor(const AreaSample& sample) {
+/// The part of each area that determines differences well enough.
+struct AreaPart {
+  double share;       ///< of the area
+  double candidates;  ///< of a strip in it
+};
+
+AreaPart partFor(const AreaSample::Candidates& all) {
   constexpr double kPairsForDifferences = 50e3;  // more determine no difference that matters
-  return std::min(1.0, kPairsForDifferences / static_cast<double>(sample.candidates().pairs));
+  const double share = std::min(1.0, kPairsForDifferences / static_cast<double>(all.pairs));
+  return {share, share * static_cast<double>(all.per_strip)};
 }
 
 FieldDivision divisionBy(PointField field, double share, const AreaSample& sample) {
@@ -74,7 +80,7 @@ std::vector<StripPair> pairsOfParts(const FieldDivision& division, const SurveyB
 
 /// The observations of the parts of divided strips, by area; misclosures are those of corrected
 /// points.
-std::vector<AreaObservations> observationsOf(const FieldDivision& division, double share,
+std::vector<AreaObservations> observationsOf(const FieldDivision& division, const AreaPart& part,
                                              const AreaSample& sample,
                                              const Corrections& corrections) {
   constexpr std::size_t kLeastCandidates = 20;  // of a part, in an area
@@ -84,14 +90,13 @@ std::vector<AreaObservations> observationsOf(const FieldDivision& division, doub
   const auto of_parts = division.repeated(of_strips.strips());
   const std::vector<StripPair> pairs = pairsOfParts(division, block);
   // Every part forms pairs with every part of another strip: about as many in all as whole strips.
-  const std::size_t candidates = std::max(
-      kLeastCandidates,
-      static_cast<std::size_t>(share * static_cast<double>(sample.candidates().per_strip)) /
-          (division.parts() * division.parts()));
+  const std::size_t candidates =
+      std::max(kLeastCandidates,
+               static_cast<std::size_t>(part.candidates) / (division.parts() * division.parts()));
   return sample.collect<PairObservation>([&](std::size_t i, AreaObservations& found) {
     if (block.isControl(i)) return;
-    AreaMatcher matcher = sample.area(i).divided(division, share, candidates, settings.resolution,
-                                                 block.trajectory());
+    AreaMatcher matcher = sample.area(i).divided(division, part.share, candidates,
+                                                 settings.resolution, block.trajectory());
     matcher.correct(of_parts, corrections.sources, block.trajectory());
     found = matcher.match(pairs, settings.max_normal_distance, block.trajectory(), settings.noise);
     removeCorrections(of_parts, corrections.sources, found);
@@ -105,12 +110,12 @@ void diagnoseFields(const AreaSample& sample, const BlockEstimate& estimate,
   const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   const BlockSolution& solution = estimate.solution;
-  const double share = shareFor(sample);
+  const AreaPart part = partFor(sample.candidates());
   for (const PointField field :
        {PointField::scanner_channel, PointField::user_data, PointField::scan_direction}) {
     // The beam of other scanners does not go back and forth.
     if (field == PointField::scan_direction && !block.scanner.isLinear()) continue;
-    const FieldDivision division = divisionBy(field, share, sample);
+    const FieldDivision division = divisionBy(field, part.share, sample);
     if (division.values.empty()) continue;
     AdjustedBlock adjusted{block.flownTimes(), errorModelOf(block, solution),
                            solution.adjustment.levels(), solution.choice.estimate,
@@ -119,7 +124,7 @@ void diagnoseFields(const AreaSample& sample, const BlockEstimate& estimate,
     const std::size_t before = result.diagnosis.size();
     for (ErrorFinding& finding :
          fieldDifferences(division, adjusted,
-                          observationsOf(division, share, sample, estimate.corrections()), edge))
+                          observationsOf(division, part, sample, estimate.corrections()), edge))
       result.diagnosis.push_back(std::move(finding));
     judgeDifferences(before, settings.shared_errors.position, remedyOf(field), result);
   }

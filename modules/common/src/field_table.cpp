@@ -46,13 +46,6 @@ bool isNumber(const FieldType& type) {
   return type.kind == FieldType::Kind::number;
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
 std::string cellOf(const FieldValue& value, int digits) {
   char text[400];
   if (const auto* number = value.as<double>()) {
@@ -65,7 +58,7 @@ std::string cellOf(const FieldValue& value, int digits) {
   if (const auto* whole = value.as<std::int64_t>()) return std::to_string(*whole);
   if (const auto* count = value.as<std::uint64_t>()) return std::to_string(*count);
   if (const auto* truth = value.as<bool>()) return *truth ? "true" : "false";
-  if (const auto* words = value.as<std::string>()) return quoted(*words);
+  if (const auto* words = value.as<std::string>()) return csvCell(*words);
   return {};
 }
 
@@ -97,6 +90,13 @@ void addCells(const FieldTable& table, Find find, std::string& line) {
 }
 
 }  // namespace
+
+std::string csvCell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
 
 FieldTable::FieldTable(std::string name, std::string meaning, std::vector<FieldRow> rows)
     : content_(std::make_shared<Content>()) {

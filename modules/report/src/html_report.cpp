@@ -12,6 +12,7 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/field_table.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/drawing/markup.h>
 #include <pcl_als/report/html_report.h>
@@ -62,19 +63,17 @@ std::vector<bool> numericColumns(const ReportTable& table) {
   return numbers;
 }
 
-std::string csvCell(std::string cell) {
+/// With the minus sign that programs read.
+std::string plainCell(std::string cell) {
   for (std::size_t at; (at = cell.find("−")) != std::string::npos;) cell.replace(at, 3, "-");
-  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
-  std::string quoted = "\"";
-  for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+  return csvCell(cell);
 }
 
 std::string joined(const std::vector<std::string>& cells, const std::string& separator,
                    bool as_csv) {
   std::string line;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    line += (i > 0 ? separator : "") + (as_csv ? csvCell(cells[i]) : cells[i]);
+    line += (i > 0 ? separator : "") + (as_csv ? plainCell(cells[i]) : cells[i]);
   }
   return line;
 }

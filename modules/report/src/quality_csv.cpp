@@ -13,13 +13,7 @@
 namespace pcl_als {
 namespace {
 
-/// A cell of a CSV: quoted where necessary; empty for an unknown number.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
+/// Empty for an unknown number.
 std::string decimalText(double value, int digits) {
   if (!std::isfinite(value)) return {};
   std::ostringstream out;
@@ -41,7 +35,8 @@ template <typename Item, typename Items>
 std::string csvOf(const QualityReport& report, const Fields<Item>& fields, Items items) {
   std::string text = "set,a,b," + fields.csvHeader();
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
-    const std::string begin = std::string(set) + ',' + quoted(pair.a) + ',' + quoted(pair.b) + ',';
+    const std::string begin =
+        std::string(set) + ',' + csvCell(pair.a) + ',' + csvCell(pair.b) + ',';
     for (const Item& item : items(pair)) text += begin + fields.csvLine(item);
   });
   return text;
@@ -84,8 +79,8 @@ std::string pairsCsv(const QualityReport& report) {
          "memory_mb\n";
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     const PairAssessment& p = pair.assessment;
-    out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << toString(p.status) << ','
-        << decimalText(pair.overlap_area, 0);
+    out << set << ',' << csvCell(pair.a) << ',' << csvCell(pair.b) << ',' << toString(p.status)
+        << ',' << decimalText(pair.overlap_area, 0);
     summaryCells(p.vertical, out);
     out << ',' << (p.vertical_cells.count == 0 ? "" : decimalText(p.vertical_cells.rms, 5)) << ','
         << levelName(p.quality_level);
@@ -130,7 +125,7 @@ std::string offsetsCsv(const QualityReport& report) {
          "vertical_m,normal_m\n";
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     for (const OffsetSample& s : pair.samples) {
-      out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b);
+      out << set << ',' << csvCell(pair.a) << ',' << csvCell(pair.b);
       for (int i = 0; i < 3; ++i) out << ',' << decimalText(s.position[i], 3);
       out << ',' << decimalText(pair.assessment.trends.distance(s.position), 2) << ','
           << decimalText(s.time_a, 4) << ',' << decimalText(s.time_b, 4) << ','
@@ -149,13 +144,13 @@ std::string controlCsv(const QualityReport& report) {
   const auto add = [&](const char* set, const CheckedBlock& block) {
     if (!block.control) return;
     for (const ControlDifference& d : block.control->differences) {
-      out << set << ',' << quoted(d.point) << ',' << quoted(d.strip);
+      out << set << ',' << csvCell(d.point) << ',' << csvCell(d.strip);
       for (int i = 0; i < 3; ++i) out << ',' << decimalText(d.position[i], 4);
       out << ',' << decimalText(d.above, 4) << ',' << decimalText(d.slope / kRadiansPerDegree, 2)
-          << ',' << decimalText(d.roughness, 4) << ',' << quoted(d.unfit) << '\n';
+          << ',' << decimalText(d.roughness, 4) << ',' << csvCell(d.unfit) << '\n';
     }
     for (const std::string& point : block.control->unseen)
-      out << set << ',' << quoted(point) << ",,,,,,,,no strip covers it\n";
+      out << set << ',' << csvCell(point) << ",,,,,,,,no strip covers it\n";
   };
   if (report.before) add("before", *report.before);
   add(report.before ? "after" : "given", report.block);
@@ -167,7 +162,7 @@ std::string runCsv(const QualityReport& report) {
   std::ostringstream out;
   out << "set,a,b,milliseconds,peak_memory_mb\n";
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
-    out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ','
+    out << set << ',' << csvCell(pair.a) << ',' << csvCell(pair.b) << ','
         << decimalText(pair.milliseconds, 1) << ",\n";
   });
   out << "all,,,," << decimalText(report.peak_memory_mb, 1) << '\n';

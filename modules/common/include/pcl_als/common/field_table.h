@@ -93,6 +93,9 @@ struct FieldRow {
   bool mayBeAbsent() const { return present != nullptr || unless_empty; }
 };
 
+/// A cell of a CSV file: a text, in quotation marks where it has separators or such marks itself.
+std::string csvCell(const std::string& text);
+
 /// Reads a number with the conditions of a row, in the units of the program; null becomes NaN.
 double readNumber(const FieldNode& node, const FieldRow& row);
 
