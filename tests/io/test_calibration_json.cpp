@@ -344,7 +344,6 @@ TEST(CalibrationJson, ParametersAloneAreEnough) {
 }
 
 TEST(CalibrationJson, ErrorsNameTheKey) {
-  const std::string deep = "\"version\": " + std::string(200'000, '[');
   const struct {
     const char *from, *to, *expected;
   } cases[] = {
@@ -372,7 +371,6 @@ TEST(CalibrationJson, ErrorsNameTheKey) {
        "and 100"},
       {"\"east_m\": 0.01", "\"east_m\": 0.01, \"east_m\": 0.02", "'east_m' stands twice"},
       {"\"version\": 2", "\"version\": 2, \"version\": 2", "'version' stands twice"},
-      {"\"version\": 2", deep.c_str(), "nested in more than 100 levels"},
       {"\"line_fit_half_width_s\": 0.5", "\"line_fit_half_width_s\": 1e9", "exceed 60 seconds"},
       {"\"status\": \"fixed\"", "\"status\": \"free\"",
        "must be estimated, fixed or not_estimable"},

@@ -93,5 +93,9 @@ TEST(CalibrationParts, TheInstrumentIsReadByItself) {
   EXPECT_THROW(parseCalibration(json.dump(), "nothing"), InputError);
 }
 
+TEST(CalibrationParts, RefusesDeeplyNestedValues) {
+  EXPECT_THROW(parseCalibration(std::string(200'000, '['), "deep"), InputError);
+}
+
 }  // namespace
 }  // namespace pcl_als

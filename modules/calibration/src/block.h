@@ -33,7 +33,7 @@ struct BlockStrips {
   };
 
   std::vector<std::string> ids;       ///< of strips, and names of reference surfaces
-  std::vector<bool> used;             ///< false: left out
+  std::vector<bool> used;             ///< false: excluded
   std::vector<int> fixed_surface_of;  ///< index in held; -1: the strip is not held fixed
   std::vector<Held> held;
 

@@ -183,7 +183,7 @@ struct CalibrationSettings {
   double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit
   double control_sigma = 0.02;        ///< metres, for control points whose file gives none
   double minimum_overlap = 2000.0;    ///< m^2, least overlap of a pair of strips
-  std::size_t minimum_points = 1000;  ///< strips with fewer are left out
+  std::size_t minimum_points = 1000;  ///< strips with fewer are excluded
   /// Without attitude in the trajectory: recover pitch and crab from the points (AttitudeRecovery);
   /// false: a vertical system aligned with the flight line, as in the paper.
   bool recover_attitude = true;

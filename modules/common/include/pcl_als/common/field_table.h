@@ -77,10 +77,10 @@ struct FieldRow {
   FieldNumber number;
   std::function<FieldValue(const void*, const FieldRow&)> get;
   std::function<void(void*, const FieldNode&, const FieldRow&)> set;  ///< empty: it is not read
-  std::function<bool(const void*)> present;  ///< false: the field is left out; empty: never
+  std::function<bool(const void*)> present;  ///< false: the field is omitted; empty: never
   std::function<bool(const void*)> known;    ///< false: the value is null; empty: never
   std::function<void(const void*, const FieldNode&)> check;  ///< after reading it; empty: none
-  bool unless_empty = false;                                 ///< left out where isEmpty()
+  bool unless_empty = false;                                 ///< omitted if isEmpty()
   bool may_be_missing = false;                               ///< when it is read
   bool is_constant = false;                                  ///< the same in all files
   bool is_column = false;                                    ///< of CSV files

@@ -272,7 +272,7 @@ auto knownIf(Condition condition) {
     };
   };
 }
-/// Left out unless this holds; files may do without the field when they are read.
+/// The field is omitted unless this holds. When a file is read, the field may be missing.
 template <typename Condition>
 auto onlyIf(Condition condition) {
   return [condition](auto& row) {
@@ -283,7 +283,7 @@ auto onlyIf(Condition condition) {
     };
   };
 }
-/// Left out where it is an empty text, list or object, or null.
+/// The field is omitted if it is null or an empty text, list or object.
 inline void unlessEmpty(FieldRow& row) {
   row.unless_empty = row.may_be_missing = true;
 }

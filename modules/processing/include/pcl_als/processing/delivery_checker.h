@@ -31,7 +31,7 @@ struct CheckSettings {
   SurveyMap::Selection selection;
   std::vector<ControlPoint> control;
   double control_sigma = 0.02;        ///< metres, where the file gives none
-  std::size_t minimum_points = 1000;  ///< strips with fewer are left out
+  std::size_t minimum_points = 1000;  ///< strips with fewer are excluded
   double minimum_overlap = 500.0;     ///< m^2: pairs with less are listed but not compared
   /// places of comparison in all areas, on level ground and on slopes each
   std::size_t candidates = 100'000;
@@ -89,7 +89,7 @@ struct CheckedBlock {
   std::optional<SeparationSummary> separation;  ///< of the images that were written
   double roughness_limit = 0.0;                 ///< metres: limit of smooth surfaces
   Warnings warnings;
-  std::vector<ExcludedPoints> excluded;  ///< points that were left out
+  std::vector<ExcludedPoints> excluded;  ///< points that were excluded
 };
 
 /** \brief Checks one set of strips: three passes over the files, memory for the chosen areas only.

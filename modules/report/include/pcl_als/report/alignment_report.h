@@ -16,7 +16,7 @@ namespace pcl_als {
 struct AlignedStrips {
   std::string source, target;
   std::uint64_t source_points = 0, target_points = 0;  ///< in the common area
-  std::vector<ExcludedPoints> excluded;                ///< points that were left out
+  std::vector<ExcludedPoints> excluded;                ///< points that were excluded
 };
 
 /// Table for the terminal: XT, YT, ZT (m), omega, phi, kappa (deg) and the fit of the strips.
