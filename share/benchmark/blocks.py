@@ -52,7 +52,7 @@ BLOCKS = (
           "corridor", 0.12, "tactical", priors=LOW, cell=10.0),
     Block("flat", "a plain without relief, with few buildings and trees", 106, "small", 0.4,
           "survey", options=("-relief", "0", "-buildings", "0.1", "-trees", "0.2")),
-    Block("mountain", "a cross-fire scanner over a relief of 400 m", 107, "mountain", 0.1,
+    Block("mountain", "a cross-fire scanner over a relief of 400 m", 107, "mountain", 0.3,
           "survey", "band_limited", scale=0.6),
     Block("town", "city blocks of 12 to 90 m", 108, "city", 0.12, "survey", "random_walk"),
     Block("sessions", "lines of two days; height and mounting changed between them", 109, "small",

@@ -83,7 +83,7 @@ def estimates(calibration):
     for system in calibration["instrument"].get("systems") or []:
         add(system["name"] + ":", system["parameters"])
         found[system["name"] + ":offset_z"] = (system["offset_m"][2], system["offset_std_m"][2])
-    for source in calibration["report"]["diagnosis"]:
+    for source in calibration["report"].get("diagnosis", []):  # none without pairs
         if source["source"] == "time_offset" and source.get("determined"):
             found["time_offset"] = (source["value"], source["std"])
     return found
