@@ -4,6 +4,9 @@
 // Blocks of a conical scanner, which measures the ground of a strip ahead of the sensor and, some
 // seconds later, behind it.
 #include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -15,42 +18,44 @@ namespace {
 
 using test::SimulatedSurvey;
 
-class ConicalBlock : public testing::TestWithParam<std::uint64_t> {
- protected:
-  CalibrationResult calibrated() {
+/// Probability of a time offset in the diagnosis.
+double timeOffsetProbability(const CalibrationResult& result) {
+  for (const ErrorFinding& finding : result.diagnosis)
+    if (finding.source == "time_offset") return finding.probability;
+  ADD_FAILURE() << "time_offset is not in the diagnosis";
+  return 1.0;
+}
+
+/// With triangles that join both looks, lever_arm_y was wrong by three standard deviations, and time
+/// offsets of 2 ms were found. Consecutive seeds that no choice preceded; the simulator has no time
+/// offset. One block in thirty supports one all the same, so that two of five do in 1 % of such sets;
+/// the standard deviation of lever_arm_y then includes it, hence the median over the blocks.
+TEST(ConicalScanner, IsCalibratedWithItsLooksApart) {
+  std::vector<double> lever_arm_std;
+  int supported = 0;
+  for (const std::uint64_t seed : {501U, 502U, 503U, 504U, 505U}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
     simulation::SimulationOptions options =
         simulation::SimulationOptions::preset("conical", 1.0, 0.3);
     options.noise = simulation::NoiseOptions::named("realistic");
-    options.noise.refraction = 0.0;  // as when these blocks were chosen
-    options.seed = GetParam();
-    survey_.emplace(options);
+    options.seed = seed;
+    const SimulatedSurvey survey(options);
     SimulatedSurvey::Request request;
     request.rigorous = true;
     request.settings.candidates = 30'000;
-    return survey_->calibrate(request).result;
+    const CalibrationResult result = survey.calibrate(request).result;
+    EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
+    test::expectTruth(result, survey.bias);
+    if (timeOffsetProbability(result) > 0.5) ++supported;
+    lever_arm_std.push_back(result[SystemParameter::lever_arm_y].std);
+    const auto looks = [](const PairFit& pair) { return pair.a == "1" && pair.b == "1"; };
+    const auto own = std::find_if(result.pairs.begin(), result.pairs.end(), looks);
+    ASSERT_NE(own, result.pairs.end());
+    EXPECT_LT(own->rms_after, 0.7 * own->rms_before);
   }
-  std::optional<SimulatedSurvey> survey_;
-};
-
-/// With triangles that join both looks, lever_arm_y was 0.12 m wrong in the block of seed 34, at a
-/// standard deviation of 0.04 m, and a time offset of 2 ms was found.
-TEST_P(ConicalBlock, IsCalibratedWithItsLooksApart) {
-  const CalibrationResult result = calibrated();
-  EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
-  test::expectTruth(result, survey_->bias);
-  const auto time =
-      std::find_if(result.diagnosis.begin(), result.diagnosis.end(),
-                   [](const ErrorFinding& finding) { return finding.source == "time_offset"; });
-  ASSERT_NE(time, result.diagnosis.end());
-  EXPECT_LT(time->probability, 0.5);
-  // Larger only where there is positive evidence for a time offset, which it then includes: a Bayes
-  // factor of 3 with a prior probability of 0.1.
-  const double largest = time->probability > 0.25 ? 0.06 : 0.02;
-  EXPECT_LT(result[SystemParameter::lever_arm_y].std, largest);
-  const auto looks = [](const PairFit& pair) { return pair.a == "1" && pair.b == "1"; };
-  const auto own = std::find_if(result.pairs.begin(), result.pairs.end(), looks);
-  ASSERT_NE(own, result.pairs.end());
-  EXPECT_LT(own->rms_after, 0.7 * own->rms_before);
+  EXPECT_LE(supported, 1);
+  std::nth_element(lever_arm_std.begin(), lever_arm_std.begin() + 2, lever_arm_std.end());
+  EXPECT_LT(lever_arm_std[2], 0.02);
 }
 
 /// The angle between all pulses and the axis is too large: a scale of angles across the body cannot
@@ -102,10 +107,6 @@ TEST(SeveralScanPlanes, HaveTheScaleOfTheirOwnAngle) {
     EXPECT_LT(result[SystemParameter::range_bias].std, 5e-3);
   }
 }
-
-// With an error of the refractive index the time offset of seed 31 has a probability of 0.56, and
-// those of the seeds 32 to 60 at most 0.05.
-INSTANTIATE_TEST_SUITE_P(Seeds, ConicalBlock, testing::Values(31U, 34U, 39U, 60U));
 
 }  // namespace
 }  // namespace pcl_als

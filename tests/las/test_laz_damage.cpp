@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <chrono>
-
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
@@ -44,11 +42,9 @@ void put64(ByteVector& file, std::size_t at, std::uint64_t value) {
 TEST(LazDamage, ABillionPointsInASmallFile) {
   for (const LazSchema& schema : {kPointwise, kLayered}) {
     const ByteVector file = fileOf(schema, 250);
-    const auto begin = std::chrono::steady_clock::now();
+    // The chunk table says so: nothing is decoded.
     EXPECT_NE(messageOf(schema, file, 1000000000).find("hold 300 of the 1000000000"),
               std::string::npos);
-    // The chunk table says so: nothing is decoded. Seconds for a machine under load.
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
   }
 }
 
@@ -128,9 +124,7 @@ TEST(LazDamage, AChunkSizeWithoutSense) {
          {1U, 2U, 99U, 101U, 249U, 250U, 0x7FFFFFFFU, 0x80000000U, 0xFFFFFFFEU}) {
       LazSchema schema = right;
       schema.chunk_size = size;
-      const auto begin = std::chrono::steady_clock::now();
       EXPECT_NE(messageOf(schema, file, 250), "") << size;
-      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
     }
   }
 }
