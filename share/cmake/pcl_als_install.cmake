@@ -6,6 +6,12 @@ set(PCL_ALS_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/pcl_als)
 get_property(PCL_ALS_TOOLS GLOBAL PROPERTY PCL_ALS_TOOLS)
 add_custom_target(pcl_als_tools DEPENDS ${PCL_ALS_TOOLS})
 
+# Headers that those of users include, found when the headers are installed.
+get_property(folders GLOBAL PROPERTY PCL_ALS_HEADER_FOLDERS)
+install(CODE "set(PCL_ALS_HEADER_FOLDERS \"${folders}\")
+set(PCL_ALS_INTERNAL_INCLUDEDIR \"${PCL_ALS_INTERNAL_INCLUDEDIR}\")" COMPONENT headers)
+install(SCRIPT share/cmake/pcl_als_internal_headers.cmake COMPONENT headers)
+
 get_property(PCL_ALS_EXPORTED_MODULES GLOBAL PROPERTY PCL_ALS_EXPORTED_MODULES)
 # The libraries alone: ninja pcl_als_libraries
 add_custom_target(pcl_als_libraries)

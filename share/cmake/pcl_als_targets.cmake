@@ -8,6 +8,17 @@ function(_pcl_als_check_arguments caller unparsed)
   endif()
 endfunction()
 
+# Headers of a module: include/ holds those that users include, internal/ those that other modules, the
+# tools and the tests include besides. Of the latter only those are installed that the headers of users
+# include in turn, in a folder of their own.
+set(PCL_ALS_INTERNAL_INCLUDEDIR ${CMAKE_INSTALL_INCLUDEDIR}/pcl_als/internal)
+function(_pcl_als_install_headers)
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT headers)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY PCL_ALS_HEADER_FOLDERS ${CMAKE_CURRENT_SOURCE_DIR})
+endfunction()
+
 # als_add_module(NAME io SOURCES src/a.cpp … [MODULES common …] [PUBLIC …] [PRIVATE …] [DEFINITIONS …]
 #   [SEPARATE src/a.cpp …])
 #   MODULES  modules this one may include (checked by tests/architecture)
@@ -25,7 +36,9 @@ function(als_add_module)
   add_library(pcl_als::${ARG_NAME} ALIAS ${target})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/internal>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    $<INSTALL_INTERFACE:${PCL_ALS_INTERNAL_INCLUDEDIR}>)
   list(TRANSFORM ARG_MODULES PREPEND pcl_als::)
   target_link_libraries(${target} PUBLIC ${ARG_MODULES} ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   target_compile_definitions(${target} PRIVATE ${ARG_DEFINITIONS})
@@ -46,7 +59,7 @@ function(als_add_module)
   install(TARGETS ${target} EXPORT pcl_als-targets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT headers
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT headers)
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT headers)
+  _pcl_als_install_headers()
   if(ARG_LINEAR_ALGEBRA AND PCL_ALS_WITH_X86_64_V3)
     _pcl_als_add_x86_64_v3(${target} "${ARG_SOURCES}" "${ARG_MODULES};${ARG_PUBLIC};${ARG_PRIVATE}")
   endif()
@@ -57,7 +70,8 @@ function(_pcl_als_add_x86_64_v3 target sources libraries)
   set(fast ${target}_x86_64_v3)
   set(folder glibc-hwcaps/x86-64-v3)
   add_library(${fast} SHARED ${sources})
-  target_include_directories(${fast} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/include)
+  target_include_directories(${fast} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/include
+    ${CMAKE_CURRENT_SOURCE_DIR}/internal)
   target_link_libraries(${fast} PRIVATE ${libraries})
   target_compile_options(${fast} PRIVATE -march=x86-64-v3
     -fvisibility-inlines-hidden)  # functions of headers are not exchanged with other libraries

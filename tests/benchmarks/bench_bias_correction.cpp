@@ -9,6 +9,7 @@
 
 #include <pcl_als/filters/integer_bias_correction.h>
 #include <pcl_als/filters/system_bias_correction.h>
+#include <pcl_als/trajectory/bias_evaluator.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
 namespace pcl_als {

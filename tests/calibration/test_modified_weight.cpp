@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/trajectory/scan_geometry.h>
 
 #include "modified_weight.h"
 #include "noise_model.h"

@@ -58,7 +58,7 @@ TEST(SurveyMap, ChoosesAreasWithinTheBudgetThatBothStripsSee) {
              second = sampled(16, 0.0, 300.0, {100, 0, 0});
   map.add(0, first.data(), first.size());
   map.add(1, second.data(), second.size());
-  SurveyMap::Selection selection;
+  AreaSelection selection;
   const auto all = map.selectAreas({{0, 1}}, selection);
   selection.point_budget = 60'000;
   const auto few = map.selectAreas({{0, 1}}, selection);

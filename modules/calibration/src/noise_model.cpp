@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/trajectory/scan_geometry.h>
 
 namespace pcl_als {
 

@@ -15,6 +15,7 @@
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/survey/offset_from_block.h>
+#include <pcl_als/survey/strip_assignment.h>
 
 #include "block_advice.h"
 #include "block_calibration.h"

@@ -79,7 +79,7 @@ std::vector<std::vector<Cell>> overlapsOf(const std::vector<std::set<Cell>>& cel
 }  // namespace
 
 SyntheticPairs::Places SyntheticPairs::chooseAreas(int first, const ObservedBlock& block) const {
-  const SurveyMap::Selection& selection = settings_.selection;
+  const AreaSelection& selection = settings_.selection;
   const double step = stepFor(block.strips, selection.area_size);
   std::vector<std::set<Cell>> cells;
   std::map<Cell, double> points_of;

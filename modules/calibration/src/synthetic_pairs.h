@@ -39,7 +39,7 @@ class SyntheticPairs {
   struct Settings {
     NoiseModel noise;
     SurfaceModel surface;
-    SurveyMap::Selection selection;    ///< areas, and points used at most
+    AreaSelection selection;           ///< areas, and points used at most
     std::size_t candidates = 100'000;  ///< candidate points of all areas together
     double control_sigma = 0.02;       ///< metres
   };

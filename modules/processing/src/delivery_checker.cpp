@@ -9,6 +9,7 @@
 #include <pcl_als/processing/delivery_checker.h>
 #include <pcl_als/survey/area_index.h>
 #include <pcl_als/survey/offset_from_block.h>
+#include <pcl_als/survey/survey_map.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
 #include "delivery_messages.h"

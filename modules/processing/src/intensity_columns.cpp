@@ -7,6 +7,8 @@
 
 #include <pcl_als/common/time_unit.h>
 #include <pcl_als/common/vector_clones.h>
+#include <pcl_als/processing/intensity_run.h>
+#include <pcl_als/survey/strip_assignment.h>
 
 namespace pcl_als {
 namespace {

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <map>
 
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/intensity_output.h>
+#include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/radiometry/radiometric_model.h>
 
 namespace pcl_als {

@@ -6,7 +6,10 @@
 #include <pcl_als/common/file_version.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/io/point_reader.h>
+#include <pcl_als/processing/file_batch.h>
 #include <pcl_als/processing/intensity_job.h>
+#include <pcl_als/processing/intensity_output.h>
+#include <pcl_als/processing/intensity_run.h>
 
 namespace pcl_als {
 namespace {

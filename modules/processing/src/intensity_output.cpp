@@ -11,6 +11,7 @@
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/intensity_output.h>
+#include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/survey/coverage_limit.h>
 
 #include "correction_record.h"

@@ -9,7 +9,10 @@
 #include <pcl_als/common/file_version.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/common/shared_work.h>
+#include <pcl_als/processing/file_batch.h>
+#include <pcl_als/processing/land_cover.h>
 #include <pcl_als/processing/land_cover_job.h>
+#include <pcl_als/processing/point_classes.h>
 
 namespace pcl_als {
 namespace {

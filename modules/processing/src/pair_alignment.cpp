@@ -7,6 +7,7 @@
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/io/measured_box.h>
 #include <pcl_als/processing/pair_alignment.h>
+#include <pcl_als/survey/strip_assignment.h>
 
 namespace pcl_als {
 namespace {

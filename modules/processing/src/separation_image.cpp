@@ -8,6 +8,7 @@
 #include <pcl_als/io/raster_io.h>
 #include <pcl_als/processing/separation_image.h>
 #include <pcl_als/quality/accuracy_standards.h>
+#include <pcl_als/quality/swath_separation.h>
 
 namespace pcl_als {
 namespace {

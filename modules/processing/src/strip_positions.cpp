@@ -4,6 +4,7 @@
 #include <pcl_als/common/header_box.h>
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/processing/strip_positions.h>
+#include <pcl_als/survey/surveyed_file.h>
 
 namespace pcl_als {
 namespace {

@@ -11,8 +11,10 @@
 #include <pcl_als/common/shared_work.h>
 #include <pcl_als/io/measured_box.h>
 #include <pcl_als/io/point_reference.h>
+#include <pcl_als/io/raster_io.h>
 #include <pcl_als/processing/strip_rasters.h>
 #include <pcl_als/survey/survey_messages.h>
+#include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
 namespace {

@@ -2,8 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/drawing/orthographic_camera.h>
+#include <pcl_als/drawing/pixel_thinning.h>
 #include <pcl_als/drawing/voxel_thinning.h>
+#include <pcl_als/processing/picture/picture_source.h>
 #include <pcl_als/processing/picture/survey_picture.h>
+#include <pcl_als/survey/strip_assignment.h>
 
 namespace pcl_als {
 namespace {
@@ -30,8 +34,35 @@ std::string extentText(const Eigen::Vector3d& minimum, const Eigen::Vector3d& ma
          numberText(minimum.y(), 1) + " to " + numberText(maximum.y(), 1);
 }
 
-SurveyPicture::SurveyPicture(const std::vector<std::string>& files,
-                             const SurveyPictureOptions& options, const ProgressCallback& callback)
+/// The points of a picture and all that draws them.
+class SurveyPicture::Drawing {
+ public:
+  Drawing(const std::vector<std::string>& files, const SurveyPictureOptions& options,
+          const ProgressCallback& callback);
+  const OrthographicCamera& camera() const { return camera_; }
+  Canvas draw() const { return picture_.draw(*points_, coloring_); }
+  ColoredPoints thinned() const;
+
+ private:
+  bool shows(const PictureSource::Point& point) const;
+  void select();
+  void frame();
+  void fitColours();
+
+  SurveyPictureOptions options_;
+  PointPicture picture_;
+  OrthographicCamera camera_;
+  PictureSource source_;
+  PointAttribute attribute_;
+  std::vector<bool> chosen_;
+  int hidden_ = -1;  ///< strip that is not drawn
+  std::unique_ptr<PixelThinning> points_;
+  PointColoring coloring_;
+};
+
+SurveyPicture::Drawing::Drawing(const std::vector<std::string>& files,
+                                const SurveyPictureOptions& options,
+                                const ProgressCallback& callback)
     : options_(options),
       picture_(pictureOf(options)),
       camera_(options.azimuth, options.elevation),
@@ -55,18 +86,18 @@ SurveyPicture::SurveyPicture(const std::vector<std::string>& files,
   for (const std::string& remark : source_.remarks()) progress.remark(remark);
 }
 
-bool SurveyPicture::shows(const PictureSource::Point& point) const {
+bool SurveyPicture::Drawing::shows(const PictureSource::Point& point) const {
   if (point.strip == hidden_ || !chosen_[static_cast<std::size_t>(point.strip)]) return false;
   return !options_.extent || options_.extent->contains(point.position.head<2>());
 }
 
-void SurveyPicture::select() {
+void SurveyPicture::Drawing::select() {
   chosen_ = chosenStrips(options_.strips, source_.strips());
   if (options_.strips.only.empty()) hidden_ = attribute_.hiddenStrip();
 }
 
 /// The camera shows the points, or in a top view the whole of the extent.
-void SurveyPicture::frame() {
+void SurveyPicture::Drawing::frame() {
   ViewExtent extent;
   extent.reference = 0.5 * (source_.minimum() + source_.maximum());
   source_.read([&](const PictureSource::Point& point) {
@@ -83,7 +114,7 @@ void SurveyPicture::frame() {
   camera_.frame(extent, picture_.mapWidth(), picture_.mapHeight(), options_.zoom);
 }
 
-void SurveyPicture::fitColours() {
+void SurveyPicture::Drawing::fitColours() {
   coloring_ = attribute_.coloring();
   if (!coloring_.categories.empty()) {
     coloring_.keepShown(*points_);
@@ -97,11 +128,7 @@ void SurveyPicture::fitColours() {
   }
 }
 
-Canvas SurveyPicture::draw() const {
-  return picture_.draw(*points_, coloring_);
-}
-
-ColoredPoints SurveyPicture::thinned() const {
+ColoredPoints SurveyPicture::Drawing::thinned() const {
   VoxelThinning voxels(camera_.center(), source_.maximum() - source_.minimum());
   source_.read(
       [&](const PictureSource::Point& point) {
@@ -111,6 +138,24 @@ ColoredPoints SurveyPicture::thinned() const {
   ColoredPoints points{voxels.positions(), {}};
   for (const float value : voxels.values()) points.colors.push_back(coloring_(value));
   return points;
+}
+
+SurveyPicture::SurveyPicture(const std::vector<std::string>& files,
+                             const SurveyPictureOptions& options, const ProgressCallback& progress)
+    : drawing_(std::make_unique<const Drawing>(files, options, progress)) {}
+
+SurveyPicture::~SurveyPicture() = default;
+
+const OrthographicCamera& SurveyPicture::camera() const {
+  return drawing_->camera();
+}
+
+Canvas SurveyPicture::draw() const {
+  return drawing_->draw();
+}
+
+ColoredPoints SurveyPicture::thinned() const {
+  return drawing_->thinned();
 }
 
 }  // namespace pcl_als

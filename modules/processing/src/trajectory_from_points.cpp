@@ -10,6 +10,7 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/processing/trajectory_conversion.h>
 #include <pcl_als/processing/trajectory_from_points.h>
+#include <pcl_als/survey/surveyed_file.h>
 
 #include "reconstructed_attitude.h"
 

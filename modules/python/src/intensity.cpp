@@ -7,6 +7,7 @@
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/intensity_job.h>
+#include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/radiometry/atmosphere.h>
 #include <pcl_als/report/intensity_report.h>
 

@@ -7,6 +7,7 @@
 
 #include <pcl_als/common/listed_names.h>
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/quality/area_offsets.h>
 #include <pcl_als/quality/control_check.h>
 
 namespace pcl_als {

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include <pcl_als/common/local_frame.h>
+#include <pcl_als/quality/area_offsets.h>
 #include <pcl_als/quality/strip_alignment.h>
+#include <pcl_als/registration/patch_alignment.h>
 
 #include "strip_triples.h"
 

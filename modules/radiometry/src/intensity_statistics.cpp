@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/radiometry/intensity_statistics.h>
 
 namespace pcl_als {
@@ -64,6 +65,14 @@ void IntensityHistogram::add(ByteReader& in) {
     for (auto value = in.take<std::uint32_t>(); value != kEnd; in.get(value))
       values->at(value) += in.take<std::uint64_t>();
   }
+}
+
+void IntensityStatistics::put(ByteWriter& out) const {
+  out.putPlain(strips_).putPlain(classes_);
+}
+
+void IntensityStatistics::get(ByteReader& in) {
+  in.getPlain(strips_).getPlain(classes_);
 }
 
 }  // namespace pcl_als

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/radiometry/radiometric_cells.h>
@@ -159,6 +160,14 @@ CellVariation variationOf(const std::vector<SharedCell>& cells, const Radiometri
   result.p90 = variations[variations.size() * 9 / 10];
   result.rms = std::sqrt(sum_sq / static_cast<double>(variations.size()));
   return result;
+}
+
+void RadiometricCells::put(ByteWriter& out) const {
+  out.putMap(cells_, [](ByteWriter& o, const std::vector<CellSums>& cell) { o.putPlain(cell); });
+}
+
+void RadiometricCells::get(ByteReader& in) {
+  in.getMap(cells_, [](ByteReader& i, std::vector<CellSums>& cell) { i.getPlain(cell); });
 }
 
 }  // namespace pcl_als

@@ -8,6 +8,7 @@
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/drawing/curve_panels.h>
 #include <pcl_als/drawing/row_plots.h>
+#include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/report/intensity_page.h>
 
 #include "intensity_verdict.h"

@@ -8,6 +8,7 @@
 #include <pcl_als/common/class_name.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/report/intensity_report.h>
 
 namespace pcl_als {

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/common/point_flag.h>
@@ -225,7 +226,7 @@ std::vector<std::int64_t> ranked(const std::map<std::int64_t, double>& scores) {
 }  // namespace
 
 std::vector<SurveyArea> SurveyMap::selectAreas(const std::vector<StripPair>& pairs,
-                                               const Selection& selection) const {
+                                               const AreaSelection& selection) const {
   const int cells_per_area =
       std::max(1, static_cast<int>(std::lround(selection.area_size / kCell)));
   const double size = cells_per_area * kCell;

@@ -9,6 +9,7 @@
 #include <pcl_als/common/strip_group.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/time_reference.h>
+#include <pcl_als/survey/strip_assignment.h>
 #include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
@@ -23,6 +24,10 @@ std::vector<SurveyInput> inputsOf(const std::vector<Path>& paths, const PointWin
 }
 
 }  // namespace
+
+SurveyReader::SurveyReader(SurveyReader&& other) noexcept = default;
+SurveyReader& SurveyReader::operator=(SurveyReader&& other) noexcept = default;
+SurveyReader::~SurveyReader() = default;
 
 SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads,
                            const PointWindow& window, Communicator* processes)
@@ -70,7 +75,7 @@ SurveyReader SurveyReader::ofSurveyed(std::vector<SurveyedFile> files, const Str
   SurveyReader survey(std::move(files), threads, PointWindow());
   survey.times_ = flown.alignments;
   survey.times_.resize(survey.files().size());
-  survey.arrangement_.emplace(survey.files(), choice, flown);
+  survey.arrangement_ = std::make_unique<StripAssignment>(survey.files(), choice, flown);
   survey.divide(false);
   return survey;
 }
@@ -81,7 +86,7 @@ SurveyReader::SurveyReader(int threads, std::vector<SurveyInput> inputs, Communi
       inputs_(std::move(inputs)),
       files_(std::make_unique<std::vector<SurveyedFile>>(surveyFiles(inputs_, threads, processes))),
       times_(inputs_.size()) {
-  arrangement_.emplace(files(), StripChoice(), FlownTimes());
+  arrangement_ = std::make_unique<StripAssignment>(files(), StripChoice(), FlownTimes());
   divide(false);
 }
 
@@ -201,7 +206,8 @@ void SurveyReader::alignTimes(const Flight& flight, std::vector<std::string>& re
 std::vector<std::string> SurveyReader::choose(const StripChoice& choice, const Flight& flight) {
   std::vector<std::string> remarks;
   alignTimes(flight, remarks);
-  arrangement_.emplace(files(), choice, FlownTimes{flight.trajectory, times_, flight.needed});
+  arrangement_ = std::make_unique<StripAssignment>(
+      files(), choice, FlownTimes{flight.trajectory, times_, flight.needed});
   for (const std::string& text : arrangement_->divisions()) remarks.push_back(text);
   divide(choice.by_channel);
   checkAnyLeft(flight);
@@ -266,6 +272,11 @@ void SurveyReader::checkAnyLeft(const Flight& flight) const {
       range.first, range.last, remark.c_str(), flight.trajectory->startTime(),
       flight.trajectory->endTime(), flight.trajectory->gaps().empty() ? "" : " with gaps");
   throw InputError(text);
+}
+
+bool SurveyReader::areOfOnePass(int a, int b) const {
+  return channels_.empty() &&
+         arrangement_->areOfOnePass(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
 }
 
 }  // namespace pcl_als

@@ -8,6 +8,8 @@
 
 #include <pcl_als/common/header_box.h>
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/common/shared_work.h>
+#include <pcl_als/survey/strip_assignment.h>
 #include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {

@@ -26,7 +26,7 @@ grep -rhoE '(href|src)="files/[^"]+"' "$output/pages" | sed -E 's/^[a-z]+="files
     cp -r -- "$file" "$output/html/files/$file"
   done
 
-includes=(modules/*/include)
+includes=(modules/*/include modules/*/internal)
 {
   cat "$here/Doxyfile"
   printf 'PROJECT_NUMBER = %s\nOUTPUT_DIRECTORY = "%s"\n' "$version" "$output"

@@ -14,11 +14,12 @@
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/common/strip_group.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/survey/survey_map.h>
+#include <pcl_als/survey/area_selection.h>
 #include <pcl_als/tin/surface_criterion.h>
-#include <pcl_als/trajectory/scan_geometry.h>
 
 namespace pcl_als {
+
+struct ScanGeometry;
 
 /** \brief Random errors of one return, without systematic effects.
  *
@@ -177,7 +178,7 @@ struct CalibrationSettings {
   SharedErrorModel shared_errors;
   DeterminationLimits limits;
   SurfaceCriterion patches;
-  SurveyMap::Selection selection;
+  AreaSelection selection;
   std::size_t candidates = 100'000;   ///< candidate points of all areas together
   std::size_t pair_budget = 0;        ///< pairs that are adjusted (PairSelection); 0: all
   double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit

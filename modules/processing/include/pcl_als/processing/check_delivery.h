@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <pcl_als/common/progress.h>
-#include <pcl_als/processing/delivery_checker.h>
-#include <pcl_als/survey/strip_assignment.h>
+#include <pcl_als/processing/checked_block.h>
+#include <pcl_als/survey/strip_choice.h>
 #include <pcl_als/survey/survey_observer.h>
 
 namespace pcl_als {

@@ -13,7 +13,7 @@
 #include <pcl_als/common/progress.h>
 #include <pcl_als/io/trajectory_io.h>
 #include <pcl_als/processing/point_deviations.h>
-#include <pcl_als/trajectory/bias_evaluator.h>
+#include <pcl_als/trajectory/coverage_count.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -9,12 +10,23 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include <pcl_als/common/left_out.h>
 #include <pcl_als/common/progress.h>
-#include <pcl_als/processing/file_batch.h>
-#include <pcl_als/processing/intensity_output.h>
-#include <pcl_als/processing/intensity_run.h>
+#include <pcl_als/common/survey_types.h>
+#include <pcl_als/common/warning.h>
+#include <pcl_als/processing/batch_options.h>
+#include <pcl_als/processing/intensity_settings.h>
+#include <pcl_als/radiometry/intensity_statistics.h>
+#include <pcl_als/radiometry/overlap_adjustment.h>
+#include <pcl_als/radiometry/radiometric_model.h>
+#include <pcl_als/radiometry/reference_targets.h>
 
 namespace pcl_als {
+
+class IntensityRun;
+class Trajectory;
 
 /// Model, gains by strip and constant that an earlier run estimated.
 struct StoredRadiometry {
@@ -45,8 +57,23 @@ struct LostIntensities {
 };
 LostIntensities lostIntensities(const IntensityCounts& counts);
 
+/// Statistics of the output, for the report.
+struct IntensityOutcome {
+  explicit IntensityOutcome(std::size_t strips) : statistics(strips), histograms(strips) {}
+  std::vector<IntensityCounts> counts;  ///< by file
+  /// Of the files: what was wrong, and what was copied besides (LasRewriteResult); with their
+  /// names.
+  std::vector<std::string> remarks;
+  IntensityStatistics statistics;
+  std::vector<IntensityHistogram> histograms;
+  /// Called with every point, one at a time; may be empty.
+  std::function<void(int strip, const Eigen::Vector3d& place)> seen;
+
+  void addRemarks(const std::filesystem::path& path, const std::vector<std::string>& written);
+};
+
 struct IntensityResult {
-  std::unique_ptr<const IntensityRun> run;  ///< strips, and model and gains as they were used
+  std::shared_ptr<const IntensityRun> run;  ///< strips, and model and gains as they were used
   IntensityOutcome outcome{0};
   std::optional<OverlapResult> overlaps;     ///< where strips were compared
   std::optional<ReferenceResult> reference;  ///< where there are targets

@@ -2,18 +2,18 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <pcl_als/classification/accuracy_assessment.h>
 #include <pcl_als/classification/gaussian_classifier.h>
 #include <pcl_als/common/class_site.h>
 #include <pcl_als/common/progress.h>
-#include <pcl_als/processing/file_batch.h>
-#include <pcl_als/processing/land_cover.h>
-#include <pcl_als/processing/point_classes.h>
+#include <pcl_als/processing/batch_options.h>
 #include <pcl_als/processing/strip_rasters.h>
 
 namespace pcl_als {
@@ -40,6 +40,16 @@ struct LandCoverOptions {
   BatchOptions batch;  ///< processes that share tiles and files; continuation for point files
   /// Names of the sites in messages: those of their files.
   std::string training_name = "training sites", checks_name = "check sites";
+};
+
+/// Classes of check sites and of their cells.
+struct CheckReport {
+  std::vector<CheckedSite> sites;
+  std::vector<std::string> remarks;
+};
+struct CoverCounts {
+  std::vector<std::uint64_t> cells;  ///< per class
+  std::uint64_t rejected = 0, without_values = 0;
 };
 
 struct LandCoverResult {

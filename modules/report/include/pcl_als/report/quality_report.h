@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/processing/delivery_checker.h>
+#include <pcl_als/processing/checked_block.h>
 
 namespace pcl_als {
 

@@ -16,15 +16,23 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <pcl_als/common/left_out.h>
 #include <pcl_als/common/lidar_return.h>
+#include <pcl_als/common/point_chunk.h>
 #include <pcl_als/common/progress.h>
-#include <pcl_als/common/shared_work.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/point_reference.h>
-#include <pcl_als/survey/strip_assignment.h>
+#include <pcl_als/survey/strip_choice.h>
 #include <pcl_als/survey/survey_input.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {
+
+class Communicator;
+struct FlownTimes;
+class SharedItems;
+class StripAssignment;
+struct SurveyedFile;
 
 /** \brief The points of a survey as strips, from files or clouds, which can be read repeatedly.
  *
@@ -97,6 +105,9 @@ class SurveyReader {
   /// of \a choice, without choose().
   static SurveyReader ofSurveyed(std::vector<SurveyedFile> files, const StripChoice& choice,
                                  const FlownTimes& flown, int threads = 0);
+  SurveyReader(SurveyReader&& other) noexcept;
+  SurveyReader& operator=(SurveyReader&& other) noexcept;
+  ~SurveyReader();
 
   /// Chooses the points that are read, and their strips; without it all points are read, with
   /// strips named by StripNaming. Returns how times were reconciled with the trajectory, one line
@@ -106,10 +117,7 @@ class SurveyReader {
   const std::vector<std::string>& strips() const { return strips_; }
   /// Whether two strips were measured in one pass, as of scanners with numbers of their own; not so
   /// where strips are divided by channel, because these are to be compared.
-  bool areOfOnePass(int a, int b) const {
-    return channels_.empty() &&
-           arrangement_->areOfOnePass(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
-  }
+  bool areOfOnePass(int a, int b) const;
   /// The field that divides strips by the channel of the scanner (PointWindow::channel_field);
   /// empty where they are not divided.
   std::string channelField() const;
@@ -223,7 +231,7 @@ class SurveyReader {
   std::vector<SurveyInput> inputs_;
   /// The arrangement refers to it; in its place when the reader is moved.
   std::unique_ptr<std::vector<SurveyedFile>> files_;
-  std::optional<StripAssignment> arrangement_;
+  std::unique_ptr<StripAssignment> arrangement_;
   PointReference reference_;
   std::vector<TimeAlignment> times_;
   std::vector<std::string> strips_;

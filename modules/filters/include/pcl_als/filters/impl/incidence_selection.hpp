@@ -12,8 +12,8 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/filters/impl/cloud_surfaces.hpp>
-#include <pcl_als/filters/impl/trajectory_reach.hpp>
 #include <pcl_als/filters/incidence_selection.h>
+#include <pcl_als/filters/trajectory_reach.h>
 
 namespace pcl_als {
 

@@ -10,8 +10,8 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/filters/impl/cloud_surfaces.hpp>
-#include <pcl_als/filters/impl/trajectory_reach.hpp>
 #include <pcl_als/filters/intensity_correction.h>
+#include <pcl_als/filters/trajectory_reach.h>
 
 namespace pcl_als {
 

@@ -11,8 +11,8 @@
 #include <pcl_als/common/point_flag.h>
 #include <pcl_als/common/time_unit.h>
 #include <pcl_als/filters/impl/point_channels.hpp>
-#include <pcl_als/filters/impl/trajectory_reach.hpp>
 #include <pcl_als/filters/system_bias_correction.h>
+#include <pcl_als/filters/trajectory_reach.h>
 
 namespace pcl_als {
 

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,11 +12,13 @@
 
 #include <pcl_als/common/progress.h>
 #include <pcl_als/drawing/canvas.h>
-#include <pcl_als/drawing/pixel_thinning.h>
 #include <pcl_als/drawing/point_picture.h>
-#include <pcl_als/processing/picture/picture_source.h>
+#include <pcl_als/io/point_window.h>
+#include <pcl_als/survey/strip_choice.h>
 
 namespace pcl_als {
+
+class OrthographicCamera;
 
 struct SurveyPictureOptions {
   int width = 1600, height = 1000;      ///< pixels
@@ -60,29 +61,18 @@ class SurveyPicture {
   SurveyPicture(const std::vector<std::string>& files, const SurveyPictureOptions& options,
                 const ProgressCallback& progress = {});
 
-  const PictureSource& source() const { return source_; }
-  const PixelThinning& points() const { return *points_; }
-  const PointColoring& coloring() const { return coloring_; }
-  const OrthographicCamera& camera() const { return camera_; }
+  SurveyPicture(const SurveyPicture&) = delete;
+  SurveyPicture& operator=(const SurveyPicture&) = delete;
+  ~SurveyPicture();
+
+  const OrthographicCamera& camera() const;
   Canvas draw() const;
   /// The points of the picture, evenly thinned to at most six million, for a view from all sides.
   ColoredPoints thinned() const;
 
  private:
-  bool shows(const PictureSource::Point& point) const;
-  void select();
-  void frame();
-  void fitColours();
-
-  SurveyPictureOptions options_;
-  PointPicture picture_;
-  OrthographicCamera camera_;
-  PictureSource source_;
-  PointAttribute attribute_;
-  std::vector<bool> chosen_;
-  int hidden_ = -1;  ///< strip that is not drawn
-  std::unique_ptr<PixelThinning> points_;
-  PointColoring coloring_;
+  class Drawing;
+  std::unique_ptr<const Drawing> drawing_;
 };
 
 /// "x 84940.1 to 85203.9, y 447385.2 to 447614.0"
