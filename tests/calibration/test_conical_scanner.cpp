@@ -26,10 +26,11 @@ double timeOffsetProbability(const CalibrationResult& result) {
   return 1.0;
 }
 
-/// With triangles that join both looks, lever_arm_y was wrong by three standard deviations, and time
-/// offsets of 2 ms were found. Consecutive seeds that no choice preceded; the simulator has no time
-/// offset. One block in thirty supports one all the same, so that two of five do in 1 % of such sets;
-/// the standard deviation of lever_arm_y then includes it, hence the median over the blocks.
+/// With triangles that join both looks, lever_arm_y was wrong by three standard deviations, and
+/// time offsets of 2 ms were found. Consecutive seeds that no choice preceded; the simulator has no
+/// time offset. One block in thirty supports one all the same, so that two of five do in 1 % of
+/// such sets; the standard deviation of lever_arm_y then includes it, hence the median over the
+/// blocks.
 TEST(ConicalScanner, IsCalibratedWithItsLooksApart) {
   std::vector<double> lever_arm_std;
   int supported = 0;

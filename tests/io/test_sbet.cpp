@@ -129,8 +129,9 @@ TEST(Sbet, IsInMetresWhateverTheCrsCountsIn) {
   EXPECT_NEAR(feet.heading, metres.heading, 1e-9);
 }
 
-/// Heights above a geoid in feet: in metres if PROJ has a grid of the geoid, which here lies 21 to 27 m
-/// below the ellipsoid; otherwise refused with the cause, and never passed on without the geoid.
+/// Heights above a geoid in feet: in metres if PROJ has a grid of the geoid, which here lies 21 to
+/// 27 m below the ellipsoid; otherwise refused with the cause, and never passed on without the
+/// geoid.
 TEST(Sbet, HeightsInFeetAreBroughtToMetres) {
   const auto path = file({record(1.0)});
   double height = 0.0;
