@@ -174,8 +174,8 @@ int apply(const CommandLine& line) {
   options.trajectory_accuracy =
       line.has("trajectory_accuracy") ? app::accuracies(line) : std::move(stated.accuracy);
   if (line.has("bias")) calibration.attitude = attitudeOf(*flight);
-  app::remark(line,
-              (options.invert ? "putting in: " : "taking out: ") + describeBiases(calibration));
+  app::remark(line, (options.invert ? "applying biases: " : "removing biases: ") +
+                        describeBiases(calibration));
 
   const std::string doubt = check(line, calibration, flight);
   if (line.has("corrected")) {

@@ -69,7 +69,7 @@ CommandLine commandLine() {
           "split",
           "write a file for each strip into the output folder; points are divided into flight "
           "lines at gaps in time, changes of course, turns and hovering; points between lines are "
-          "left out")
+          "excluded")
       .in(app::Group::strips);
   line.addFlag("keep_ids",
                "with -split: points keep their point source ids (default: lines that are not the "

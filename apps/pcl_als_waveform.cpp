@@ -37,7 +37,7 @@ CommandLine commandLine() {
   line.addNumber("false_echoes", "expected number of false echoes in a waveform", 3e-4,
                  {1e-9, 0.1, ""});
   line.addNumber("ringing",
-                 "leave out echoes behind a stronger one that are smaller than this share of its "
+                 "exclude echoes behind a stronger one that are smaller than this share of its "
                  "amplitude",
                  0.0, {0.0, 0.9, ""});
   line.addNumber("ringing_reach", "time behind an echo in which -ringing applies", 30.0,

@@ -35,7 +35,7 @@ void addOutputs(CommandLine& line) {
   line.addOutputFolder(
           "classified",
           "folder for copies of the point files with ASPRS classes; noise (7, 18), "
-          "points without a class and points of strips that are left out keep their code",
+          "points without a class and points of strips that are excluded keep their code",
           copiesOfInputs())
       .formerly("points");
   for (const char* name :

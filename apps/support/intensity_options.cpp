@@ -193,7 +193,7 @@ void addIntensityOptions(CommandLine& line) {
 ExtinctionChoice extinctionChoice(const CommandLine& line) {
   ExtinctionChoice choice;
   if (line.has("no_atmosphere")) {
-    choice.remark = "atmosphere: left out";
+    choice.remark = "atmosphere: not applied";
     return choice;
   }
   if (line.has("attenuation")) {

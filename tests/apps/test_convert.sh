@@ -32,7 +32,7 @@ expect 2 "no point lies within the bounds; *covers by its header x " convert "$s
 absent none.laz
 expect 1 "-bounds" convert "$strip" none.laz -bounds 1,2,3
 expect 1 "smaller values first" convert "$strip" none.laz -bounds 3,3,1,1
-expect 0 "strip 1: * left out: " convert "$block"/strip1.las "$block"/strip2.las chosen -without 1 -format laz
+expect 0 "strip 1: * excluded: " convert "$block"/strip1.las "$block"/strip2.las chosen -without 1 -format laz
 absent chosen/strip1.laz none.laz
 check "the other strip" test -s chosen/strip2.laz
 

@@ -68,7 +68,7 @@ expect 2 "line 2, column 'reflectance'" intensity block/strip1.las x.las "${flig
   -targets <(printf 'x,y,reflectance\n0,0,50\n')
 
 # Terms, gains and scales on the command line.
-expect 0 'atmosphere: left out' intensity block/strip1.las plain.las "${flight[@]}" -no_atmosphere -no_range -no_incidence \
+expect 0 'atmosphere: not applied' intensity block/strip1.las plain.las "${flight[@]}" -no_atmosphere -no_range -no_incidence \
   -no_original -no_fields
 check "without terms nothing changes" cmp plain.las block/strip1.las
 expect 3 "beyond 65535" intensity block/strip3.las x.las "${flight[@]}" -intensity_scale 1000

@@ -17,14 +17,14 @@ in_json() { check "calibration.json has $1" grep -q "$1" calibration.json; }
 
 # The first strip is flown from 401003 to 401005.25 s.
 columns 'NR == 1 || $1 > 401003.1' >late.csv
-calibrate_with 0 "left out: measured before the trajectory begins" -trajectory late.csv
+calibrate_with 0 "excluded: measured before the trajectory begins" -trajectory late.csv
 in_json '"reason": "before_trajectory"'
 columns 'NR == 1 || $1 < 401003.5 || $1 > 401005' >gap.csv
-calibrate_with 0 "left out: measured in a gap of the trajectory" -trajectory gap.csv
+calibrate_with 0 "excluded: measured in a gap of the trajectory" -trajectory gap.csv
 columns 'NR == 1 || $1 > 401005.2' >second.csv
 calibrate_with 0 "the trajectory covers hardly anything of the strip" -trajectory second.csv
 
-calibrate_with 0 "left out: the strip was not chosen" -trajectory "$good" -without 4
+calibrate_with 0 "excluded: the strip was not chosen" -trajectory "$good" -without 4
 in_json '"reason": "excluded"'
 check "strip 4 is in no pair" sh -c '! grep -q "\"b\": \"4\"" calibration.json'
 calibrate_with 0 "" -trajectory "$good" -strips 1,2,3
@@ -34,12 +34,12 @@ calibrate_with 2 "no pair is left" -trajectory second.csv -pairs 1:2
 calibrate_with 1 "option -without: there is no strip '9'; there are 1, 2, 3, 4" -trajectory "$good" -without 9
 calibrate_with 1 "both name strip '1'" -trajectory "$good" -strips 1,2 -without 1
 calibrate_with 1 "option -strips: names no strip" -trajectory "$good" -strips ,
-calibrate_with 1 "pairs: strip '4' is left out of the strips in use; -strips and -without" \
+calibrate_with 1 "pairs: strip '4' is not among the strips in use; -strips and -without" \
   -trajectory "$good" -pairs 3:4 -without 4
 calibrate_with 2 "not chosen" -trajectory "$good" -strips 1
 
-expect 0 "left out: the strip was not chosen" check "${strips[@]}" -without 4 -output q.json
-check "quality.json counts what was left out" grep -q '"reason": "excluded"' q.json
+expect 0 "excluded: the strip was not chosen" check "${strips[@]}" -without 4 -output q.json
+check "quality.json counts what was excluded" grep -q '"reason": "excluded"' q.json
 expect 0 "" check "${strips[@]}" -trajectory second.csv -output q.json
 
 # Flight lines of files without source ids are those of the strips they were cut from.
@@ -49,7 +49,7 @@ check "four lines" grep -q '"id": "line4"' split.json
 
 # The other tools: strips by name, flight lines, several flights in one file, points without a time.
 left_out() {  # FILE STRIP REASON: the result counts points of that strip
-  check "$1: $2 is left out: $3" awk -v strip="\"$2\"," -v reason="\"$3\"," '
+  check "$1: $2 is excluded: $3" awk -v strip="\"$2\"," -v reason="\"$3\"," '
     $1 == "\"strip\":" { on = $2 == strip } on && $1 == "\"reason\":" && $2 == reason { found = 1 }
     END { exit !found }' "$1"
 }
@@ -93,7 +93,7 @@ expect 0 "the strip was not chosen" classify "${strips[@]}" "${training[@]}" -st
   -checkpoints "$block/checkpoints.csv" -accuracy accuracy.json -classified classified
 check "the map is that of the two strips" cmp two.tif some.tif
 left_out accuracy.json 3 excluded
-check "points that were left out keep their class" cmp "${strips[3]}" classified/strip4.las
+check "points that were excluded keep their class" cmp "${strips[3]}" classified/strip4.las
 check "others are classified" sh -c "! cmp -s '${strips[0]}' classified/strip1.las"
 expect 0 "" classify id0_*.las "${training[@]}" -split -without line3,line4 -output lines.tif
 check "lines give the map of the strips they were cut from" cmp two.tif lines.tif

@@ -104,7 +104,7 @@ checks=$((checks + 1))
 within "${closure:-9}" 0 0.002 || failed "Delft: the triangle of strips closes to $closure m"
 while read -r biases; do
   for tile in 1 2; do
-    expect 0 'putting in' apply ahn3_cropped_$tile.las moved_$tile.las -trajectory "$flight" -bias "$biases" \
+    expect 0 'applying biases' apply ahn3_cropped_$tile.las moved_$tile.las -trajectory "$flight" -bias "$biases" \
       -invert -keep_uncovered
   done
   expect 0 converged calibrate moved_?.las -trajectory "$flight" -output moved.json

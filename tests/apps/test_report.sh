@@ -83,7 +83,7 @@ check "the trajectory's verdict" grep -q "The trajectory of 5 of 5 passes was fo
 trajectory_page() {  # LINES_OF_THE_TOOL PAGE_TEXT: standard deviations and rays of each strip
   awk 'NR == FNR { if (/^  strip .* m above ground/) { sub(":", "", $2); std[$2] = $12 " | " $13 " | " $14
                    for (i = 1; i <= NF; ++i) if ($i == "rays,") rays[$2] = $(i - 1); ++strips }; next }
-    /^\| strip/ { table = /evidence/ ? "paths" : /left out/ ? "rays" : "" }
+    /^\| strip/ { table = /evidence/ ? "paths" : /excluded/ ? "rays" : "" }
     table == "paths" && $2 in std { if (index($0, std[$2]) && / rays \|$/) ++found }
     table == "rays" && $2 in rays { split($0, cell, " \\| "); if (cell[2] - cell[3] == rays[$2]) ++found }
     END { exit !(strips == 5 && found == 10) }' "$1" "$2"

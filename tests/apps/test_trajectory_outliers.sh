@@ -36,17 +36,17 @@ while read -r wrong text; do
   expect 0 "$text" apply "$block/strip1.las" $wrong.las -trajectory $wrong.csv "${biases[@]}"
   check "$wrong: points are those of the intact trajectory" test "$(moved $wrong.las)" -le 2
 done <<'CASES'
-zero 1 of 8 255 samples contradicts its neighbours and is left out: line 701 (
+zero 1 of 8 255 samples contradicts its neighbours and is excluded: line 701 (
 heading line 701 (401003.495 s): attitude differs by 90.0 degrees
 late line 701 (
-whole alone between gaps left out
-two 2 of 8 255 samples contradict their neighbours and are left out: line 701 to line 702
+whole alone between gaps excluded
+two 2 of 8 255 samples contradict their neighbours and are excluded: line 701 to line 702
 ten line 701 to line 710
 CASES
 # The first and the last sample.
 variant ends 2 2 '$2 += 1e5'
 awk -F, -v OFS=, 'NR == 8256 { $3 = 0 } { print }' ends.csv >both.csv
-expect 0 'left out: line 2 (401000.000 s): 100 km beside the path, line 8256 (' \
+expect 0 'excluded: line 2 (401000.000 s): 100 km beside the path, line 8256 (' \
   apply "$block/strip1.las" ends.las -trajectory both.csv "${biases[@]}"
 
 # More than can be bridged is refused by line; nothing is written.
@@ -72,7 +72,7 @@ expect 0 'not usable: 100 of 8 255' info -trajectory many.csv
 mkdir parts
 head -n 3000 zero.csv >parts/a.csv
 { head -n 1 zero.csv; tail -n +3001 zero.csv; } >parts/b.csv
-expect 0 'a.csv: 1 of 2 999 samples contradicts its neighbours and is left out: line 701' \
+expect 0 'a.csv: 1 of 2 999 samples contradicts its neighbours and is excluded: line 701' \
   apply "$block/strip1.las" parts.las -trajectory parts "${biases[@]}"
 check "two files: points are those of the intact trajectory" test "$(moved parts.las)" -le 2
 

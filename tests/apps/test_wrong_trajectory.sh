@@ -158,7 +158,7 @@ expect 0 'the standard deviations of lever_arm_x* include that the height of the
 # Times of one strip in whole seconds: the calibration leaves it out, the check goes without its path.
 "$damage" "$block/strip3.las" whole.las whole_seconds || failed damage
 others=("$block"/strip[1245].las)
-expect 0 'strip is left out' calibrate "${others[@]}" whole.las -control "$block/control.csv" -output c.json \
+expect 0 'strip is excluded' calibrate "${others[@]}" whole.las -control "$block/control.csv" -output c.json \
   -trajectory "$block/trajectory.csv"
 check "it is counted" grep -q '"reason": "rounded_times"' c.json
 expect 0 "its scan angles are the file's" check "${others[@]}" whole.las -output q.json \

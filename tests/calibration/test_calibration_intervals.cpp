@@ -60,7 +60,7 @@ TEST(CalibrationIntervals, AreNeitherFarTooSmallNorFarTooLarge) {
   // The parameters of a block are correlated: 50 numbers scatter like some 25, that is by 0.14.
   EXPECT_GT(honest.rms(), 0.5) << "intervals are too wide";
   EXPECT_LT(honest.rms(), 1.5) << "intervals are too narrow";
-  EXPECT_GT(formal.rms(), 3.0) << "the blocks would not show what Eq. (26) leaves out";
+  EXPECT_GT(formal.rms(), 3.0) << "the blocks would not show what Eq. (26) omits";
 }
 
 TEST(PairSelection, ATenthOfThePairsTellsWhatAllOfThemTell) {

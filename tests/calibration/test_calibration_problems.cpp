@@ -48,7 +48,7 @@ TEST(CalibrationProblems, AGoodBlockIsUsableWithoutWarnings) {
   EXPECT_GT(result.control_points.size(), 5U);
 }
 
-/// Names of the parameters that are left out at the limit of iterations; each must state it.
+/// Names of the parameters that are excluded at the limit of iterations; each must state it.
 std::vector<P> leftOutAtTheLimit(const CalibrationResult& result) {
   std::vector<P> names;
   for (const SystemParameterInfo& info : systemParameters()) {
@@ -63,7 +63,7 @@ std::vector<P> leftOutAtTheLimit(const CalibrationResult& result) {
 
 /// 2026-11-22: an iteration that reached its limit ended without a result, cause or advice, though
 /// fewer parameters converge at once. A limit of one iteration is reached by every block.
-TEST(CalibrationProblems, AtTheLimitOfIterationsTheMostRestlessParameterIsLeftOut) {
+TEST(CalibrationProblems, AtTheLimitOfIterationsTheMostRestlessParameterIsExcluded) {
   const SimulatedSurvey survey = smallBlock();
   CalibrationSettings settings;
   EXPECT_TRUE(leftOutAtTheLimit(survey.calibrate(settings)).empty());

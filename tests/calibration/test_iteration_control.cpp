@@ -136,7 +136,7 @@ TEST(IterationControl, ExcludesTheParameterThatDoesNotConverge) {
   ASSERT_EQ(iteration.rules().excluded.count(P::boresight_roll), 1U);
   EXPECT_NE(iteration.rules().excluded.at(P::boresight_roll).find("does not converge"),
             std::string::npos);
-  // What is asked for by name is not left out.
+  // What is asked for by name is not excluded.
   settings.estimate = {P::boresight_roll, P::boresight_pitch};
   Driven named(settings);
   named.step(100.0, 1.0);

@@ -39,7 +39,7 @@ TEST_F(RoundedTimes, LeaveTheirStripOut) {
   for (const Warning& warning : result.warnings) all += warning.text + "\n";
   EXPECT_NE(all.find("strip 4"), std::string::npos) << all;
   EXPECT_NE(all.find("whole seconds"), std::string::npos) << all;
-  EXPECT_NE(all.find("left out"), std::string::npos) << all;
+  EXPECT_NE(all.find("excluded"), std::string::npos) << all;
   ASSERT_EQ(result.excluded.size(), 1U);
   EXPECT_EQ(result.excluded[0].strip, "4");
   EXPECT_EQ(result.excluded[0].reason, ExclusionReason::rounded_times);

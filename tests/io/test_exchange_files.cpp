@@ -354,7 +354,7 @@ TEST(Xyz, DamagedFilesAreRefusedWithTheirLine) {
   expectRefused("twice.xyz", "x y z x\n1 2 3 4\n", "two of them are x");
 }
 
-TEST(Xyz, PointsWithoutPlaceAreLeftOutAndWindowsApply) {
+TEST(Xyz, PointsWithoutPlaceAreExcludedAndWindowsApply) {
   const fs::path path = written("window.xyz", "x y z\n1 1 0\nnan 1 0\n2 2 0\n3 3 0\n");
   PointWindow window;
   window.bounds.emplace(Eigen::Vector2d(1.5, 1.5), Eigen::Vector2d(3.0, 3.0));

@@ -109,7 +109,7 @@ TEST(PcdIo, MissingFieldsKeepTheirDefaults) {
   cloud.push_back({NAN, 2.0F, 3.0F});
   pcl::io::savePCDFileBinary((folder / "line7.pcd").string(), cloud);
   const Strip<PointLidar> strip = loadPcd(folder / "line7.pcd");
-  ASSERT_EQ(strip.cloud->size(), 1U);  // the point without coordinates is left out
+  ASSERT_EQ(strip.cloud->size(), 1U);  // the point without coordinates is excluded
   EXPECT_EQ(strip.id, "line7");
   EXPECT_EQ((*strip.cloud)[0].z, 3.0F);
   EXPECT_EQ((*strip.cloud)[0].gps_time, 0.0);

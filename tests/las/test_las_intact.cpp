@@ -86,7 +86,7 @@ TEST_P(LasIntactFormats, ATruncatedFileKeepsItsWholeChunks) {
   expectRecords(cut, file.las);
 }
 
-TEST_P(LasIntactFormats, DamagedChunksAreLeftOut) {
+TEST_P(LasIntactFormats, DamagedChunksAreExcluded) {
   const Packed& file = packed(GetParam());
   const fs::path path = file.folder / "holes.laz";
   std::string bytes = file.bytes;

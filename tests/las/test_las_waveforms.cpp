@@ -93,7 +93,7 @@ TEST(Waveforms, ThatAreMissingAreNamed) {
   EXPECT_EQ(filesIn(folder), "in.las out.las ");
 }
 
-// Files whose header leaves out the bit.
+// Files whose header omits the bit.
 TEST(Waveforms, AreExpectedOfDescriptorsWithoutPackets) {
   const fs::path folder = folderOf("waveforms_bit");
   LasBytes las = waveformFile();

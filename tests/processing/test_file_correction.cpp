@@ -222,7 +222,7 @@ TEST(FileCorrection, ACalibrationOfAnotherFlightIsAppliedByItsInstrumentPart) {
   strips.force = true;
   EXPECT_FALSE(corrected(calibration, "forced.las", strips).warnings.empty());
   EXPECT_EQ(by_all, recordsOf(survey().folder / "forced.las"));
-  // Of its own flight nothing is left out.
+  // Of its own flight nothing is omitted.
   EXPECT_EQ(correctPointFile(survey().write(0, "flight1.las"), survey().folder / "own.las",
                              calibration, survey().flight)
                 .flight_remark,

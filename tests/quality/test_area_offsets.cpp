@@ -176,7 +176,7 @@ TEST(AreaOffsets, PlacesOfBothStripsShowTheSameOffset) {
   EXPECT_NEAR(sums[1] / counts[1], 0.0, 0.005);
 }
 
-TEST(AreaOffsets, WithheldNoiseAndWaterAreLeftOut) {
+TEST(AreaOffsets, WithheldNoiseAndWaterAreExcluded) {
   AreaOffsets area({kOrigin.head<2>(), 50.0, 5.0}, 1);
   LidarReturn point;
   point.position = kOrigin + Eigen::Vector3d(1.0, 1.0, 0.0);
@@ -196,7 +196,7 @@ TEST(AreaOffsets, WithheldNoiseAndWaterAreLeftOut) {
   EXPECT_EQ(area.pointCount(), 1U);
 }
 
-TEST(AreaOffsets, VegetationIsLeftOutWhereItIsHigh) {
+TEST(AreaOffsets, VegetationIsExcludedWhereItIsHigh) {
   std::vector<LidarReturn> points(5);
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i].position = kOrigin + Eigen::Vector3d(0.2 * static_cast<double>(i), 0.0, 0.0);

@@ -63,7 +63,7 @@ TEST(SwathSeparation, LargestDifferenceOfSeveralStrips) {
   EXPECT_NEAR(cells[15].separation, 0.15, 1e-3);
 }
 
-TEST(SwathSeparation, LastReturnsOnlyAndNothingThatIsLeftOut) {
+TEST(SwathSeparation, LastReturnsOnlyAndNothingThatIsExcluded) {
   SwathSeparation separation = gridOf(1);
   LidarReturn point;
   point.position = kOrigin + Eigen::Vector3d(30.0, 30.0, 5.0);

@@ -82,7 +82,7 @@ TYPED_TEST(PointToPatch, BothLimitsAreOfTheNormalDistance) {
   EXPECT_EQ(found.size(), 0U);
 }
 
-TYPED_TEST(PointToPatch, PointsThatAreNotFiniteAreLeftOut) {
+TYPED_TEST(PointToPatch, PointsThatAreNotFiniteAreExcluded) {
   typename TestFixture::Estimation estimation;
   std::vector<Vector3d> target = test::scenePoints(500, 0.01, 1), source = target;
   target.insert(target.begin() + 7, Vector3d(kNan, 1, 1));

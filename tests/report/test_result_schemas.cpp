@@ -58,7 +58,7 @@ TEST(ResultSchemas, ReferenceIsThatOfTheFields) {
   std::string page =
       "# Reference of the result files\n\n"
       "The keys of the JSON files that the tools write. Each file has a JSON Schema (draft\n"
-      "2020-12) in `share/schema`. A key with \"optional\" is left out where it does not apply;\n"
+      "2020-12) in `share/schema`. A key with \"optional\" is omitted where it does not apply;\n"
       "other values that are not known are null. Programs should ignore keys that they do not\n"
       "know: later versions may add some. A test compares this page and the schemas with the\n"
       "tables in the sources that the files are written from.\n\n";

@@ -121,7 +121,7 @@ TEST(StripAssignment, AnUnknownNameIsRefusedWithThoseThereAre) {
             std::string::npos);
 }
 
-TEST(StripAssignment, PointsOutsideTheTrajectoryAreLeftOutAndTheRestIsUsed) {
+TEST(StripAssignment, PointsOutsideTheTrajectoryAreExcludedAndTheRestIsUsed) {
   const auto files = block(1, 2, 3);
   FlownTimes times;
   times.trajectory = &flight(100.5, 305.0);
@@ -160,7 +160,7 @@ TEST(StripAssignment, AGapOfTheTrajectoryCostsItsPointsOnly) {
   EXPECT_NEAR(static_cast<double>(left[0].points), 200.0, 12.0);  // between samples of 0.1 s
 }
 
-TEST(StripAssignment, AStripThatIsHardlyCoveredIsLeftOutByName) {
+TEST(StripAssignment, AStripThatIsHardlyCoveredIsExcludedByName) {
   const auto files = block(1, 2, 3);
   FlownTimes times;
   times.trajectory = &flight(90.0, 300.3);

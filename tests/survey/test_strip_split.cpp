@@ -132,7 +132,7 @@ TEST(StripSplit, ABendOfTheTrajectoryIsNoTurn) {
   EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 1U);
 }
 
-TEST(StripSplit, HoveringAndPassagesAreLeftOut) {
+TEST(StripSplit, HoveringAndPassagesAreExcluded) {
   for (const double factor : {0.1, 1.0, 4.0}) {  // 0.6 m/s to 24 m/s
     PointChunk chunk;
     const Path path = lineHoverLine(factor);

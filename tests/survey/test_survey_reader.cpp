@@ -129,7 +129,7 @@ TEST(SurveyReader, CountsWhatItLeavesOut) {
   EXPECT_NEAR(contents.boxes[1].min().z(), 100.0, 1e-9);
   EXPECT_NEAR(contents.boxes[1].max().z(), 100.999, 1e-9);
   EXPECT_NEAR(contents.box().max().z(), 201.999, 1e-9);
-  // A run of points that are left out.
+  // A run of points that are excluded.
   const PointChunk chunk = points({2, 4}, 0.0);
   EXPECT_EQ(survey.runAt(2, chunk, 30).strip, -1);
   EXPECT_EQ(survey.runAt(2, chunk, 30).to, 100U);

@@ -308,7 +308,7 @@ TEST(AttitudeRecovery, WithFewPointsFindsNothing) {
 }
 
 /// Level flight, so nominal attitude is the true one: biases leave a conical scanner's points
-/// entirely. Without attitude y is left out, and they do not.
+/// entirely. Without attitude y is excluded, and they do not.
 TEST(Attitude, NominalServesAConicalScanner) {
   const auto samples = sampled(straight(40), 0.0, 5.0, 0.1);
   Trajectory::Options options;
@@ -349,7 +349,7 @@ TEST(Attitude, NominalIsLevelAlongTheCourse) {
   ASSERT_TRUE(nominal.poseAt(2.0, pose, cursor));
   EXPECT_TRUE(pose.has_attitude);
   EXPECT_TRUE(pose.rotation.col(1).isApprox(Eigen::Vector3d::UnitX(), 1e-12));
-  // A point ahead keeps its y, which a trajectory without attitude leaves out.
+  // A point ahead keeps its y, which a trajectory without attitude excludes.
   EXPECT_NEAR(scanGeometry(pose, pose.position + Eigen::Vector3d(300.0, 0.0, -900.0)).y, 300.0,
               1e-9);
   const Trajectory without = nominal.withoutAttitude();

@@ -164,7 +164,7 @@ TEST(SystemCorrection, RemovesTheOffsetOfTheBlock) {
   EXPECT_LT((corrected.samples[0].position - sample.position - wanted).norm(), 1e-12);
 }
 
-/// What a correction needs of the points is asked for and not left out silently.
+/// What a correction needs of the points is asked for and not excluded silently.
 TEST(SystemCorrection, RefusesPointsWithoutWhatItNeeds) {
   const auto flight = rollingFlight(0.0);
   CalibrationResult calibration;

@@ -246,7 +246,7 @@ TEST(Trajectory, SamplesOfOneTimeFarApartAreRefused) {
   auto samples = sampled(straight(0), 0.0, 2.0, 0.5);
   samples.push_back(samples.back());
   samples.back().position.x() += 1.1;
-  EXPECT_NE(Trajectory(samples).repairs().front().find("left out"), std::string::npos);
+  EXPECT_NE(Trajectory(samples).repairs().front().find("excluded"), std::string::npos);
   try {
     Trajectory::Options unscreened;
     unscreened.screen_samples = false;
@@ -257,7 +257,7 @@ TEST(Trajectory, SamplesOfOneTimeFarApartAreRefused) {
   }
 }
 
-TEST(Trajectory, ASampleAloneBetweenGapsIsLeftOut) {
+TEST(Trajectory, ASampleAloneBetweenGapsIsExcluded) {
   auto samples = joined(sampled(straight(0), 0.0, 5.0, 0.01), sampled(straight(0), 30.0, 30.0, 1));
   samples = joined(samples, sampled(straight(0), 60.0, 65.0, 0.01));
   const Trajectory trajectory(samples);

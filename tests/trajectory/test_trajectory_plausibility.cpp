@@ -237,14 +237,14 @@ TEST(TrajectoryPlausibility, NamesTimesInWholeSeconds) {
   EXPECT_TRUE(seenFrom(flown(), false, 0.001).findings().empty());
 }
 
-TEST(TrajectoryPlausibility, IgnoresStripsThatAreLeftOut) {
+TEST(TrajectoryPlausibility, IgnoresStripsThatAreExcluded) {
   Samples samples = flown();
   for (TrajectorySample& sample : samples) {
     if (sample.time < 500.0) sample.position.x() += 4e3;
   }
   TrajectoryPlausibility check = seenFrom(samples);
   EXPECT_THROW(check.check(false), InputError);
-  check.leaveOut(0);
+  check.exclude(0);
   EXPECT_TRUE(check.check(false).empty());
 }
 

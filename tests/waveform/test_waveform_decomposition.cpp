@@ -239,7 +239,7 @@ TEST(Ringing, IsPartOfASampledResponse) {
   EXPECT_NEAR(errors.relativeRms()[2], 1.0, 0.15);
 }
 
-TEST(Ringing, ThatTheResponseLacksIsLeftOutByItsSetting) {
+TEST(Ringing, ThatTheResponseLacksIsExcludedByItsSetting) {
   WaveformGenerator generator(17);
   DecompositionSettings settings;
   WaveformDecomposer without = decomposerFor(kWidth, settings);

@@ -61,7 +61,7 @@ struct RestrictedLikelihood {
  * Covariance: N^-1 where the model's noise explains the scatter. Pairs of one area may share
  * further errors (a surface that changed, vegetation, effects that the model lacks). The
  * contribution of the data to N is therefore also replaced by the jackknife over areas (the change
- * of the solution when one area is left out, from the normal equations of each area), and the
+ * of the solution when one area is excluded, from the normal equations of each area), and the
  * larger of the two standard deviations is used.
  *
  * Noise of the measured slopes acts like information, sum w t't (t: PairObservation::tilt) over

@@ -178,13 +178,13 @@ struct SurveyBlock {
 
 /** \brief Chooses the strips, the pairs and the areas of a block from its index, which is consumed.
  *
- * Strips with few points or rounded times are left out. Without attitude in the trajectory, pitch
+ * Strips with few points or rounded times are excluded. Without attitude in the trajectory, pitch
  * and crab are recovered from the points (AttitudeRecovery); with it, the planes of scanners that
  * have several are found.
  *
  * InputError when no strips overlap, when a reference surface overlaps none or lies far above or
  * below them, when control lies elsewhere, when the trajectory cannot belong to the points, or when
- * a strip begins before the trajectory or ends after it: such points are to be left out by the
+ * a strip begins before the trajectory or ends after it: such points are to be excluded by the
  * caller. Points in gaps of the trajectory are not used. UsageError for unknown strips.
  */
 SurveyBlock chooseAreas(BlockIndex&& index, const BlockRequest& request);

@@ -115,7 +115,7 @@ BlockAdjustment::BlockAdjustment(const ObservedBlock& block, const Observability
   adjustment_.accumulate(block.observations, block.weights);
   const bool automatic = settings.estimate.empty();
   wanted_ = automatic ? automaticParameters(true, settings.shared_errors) : settings.estimate;
-  // Parameters requested by name are left out at three times their limit only, as in the
+  // Parameters requested by name are excluded at three times their limit only, as in the
   // calibration.
   const double factor = automatic ? 1.0 : 10.0;
   choice_ = chooseParameters(

@@ -42,7 +42,7 @@ class BlockAdjustment {
   const Adjustment& adjustment() const { return adjustment_; }
   const ParameterChoice& choice() const { return choice_; }
   /// Standard deviations of the considered parameters, internal units, each with a prior of twice
-  /// its limit: they never increase with more observations, whatever is left out as not determined.
+  /// its limit: they never increase with more observations, whatever is excluded as not determined.
   const SystemVector& deviations() const { return deviations_; }
   /// The same of parameters that are determined; for others the value from the observations alone,
   /// which is infinite where there is none.

@@ -70,7 +70,7 @@ void checkTimes(const BlockStrips& strips, const BlockIndex& index) {
 HeightError checkTrajectory(const BlockStrips& strips, const CalibrationSettings& settings,
                             TrajectoryPlausibility& plausibility, Warnings& warnings) {
   for (int strip = 0; strip < static_cast<int>(strips.size()); ++strip)
-    if (!strips.isFlown(strip)) plausibility.leaveOut(strip);
+    if (!strips.isFlown(strip)) plausibility.exclude(strip);
   if (settings.reconstructed_height_std) plausibility.nameReconstructed();
   for (const Warning& warning : plausibility.check(settings.force, true))
     warnings.push_back(warning);

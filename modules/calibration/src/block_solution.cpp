@@ -47,7 +47,7 @@ void chooseParametersOf(const ChoiceRules& rules, BlockSolution& solution) {
     solution.choice.solution = solution.adjustment.solveNearZero(wanted, widePriorStd());
     return;
   }
-  // Parameters requested by name are left out at three times their limit only.
+  // Parameters requested by name are excluded at three times their limit only.
   const double factor = settings.estimate.empty() ? 1.0 : 3.0;
   solution.choice = chooseParameters(solution.adjustment, wanted, SystemVector::Zero(),
                                      settings.limits, factor, unknownParameters(rules, model));

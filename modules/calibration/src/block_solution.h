@@ -37,9 +37,9 @@ struct BlockSolution {
 struct ChoiceRules {
   const CalibrationSettings& settings;
   bool control_covered = false;  ///< whether any strip has a patch at a control point
-  /// In the coarse phase no parameter is left out, because mismatched pairs make all uncertain.
+  /// In the coarse phase no parameter is excluded, because mismatched pairs make all uncertain.
   bool coarse = true;
-  /// Parameters left out because the iteration does not converge with them, with the reason.
+  /// Parameters excluded because the iteration does not converge with them, with the reason.
   std::map<SystemParameter, std::string> excluded;
 };
 

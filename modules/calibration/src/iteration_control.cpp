@@ -14,7 +14,7 @@ namespace {
 constexpr double kNegligible = 0.05;      // standard deviations: a smaller update is negligible
 constexpr double kSmall = 0.1;            // standard deviations: a smaller update ends a phase
 constexpr double kSmallMovement = 0.005;  // metres, of points by an update
-constexpr int kMostReductions = 3;        // parameters left out because of no convergence
+constexpr int kMostReductions = 3;        // parameters excluded because of no convergence
 constexpr int kAfterReduction = 10;       // iterations
 
 /// Whether no parameter changed by more than a number of its standard deviations.

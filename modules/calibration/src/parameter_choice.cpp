@@ -14,7 +14,7 @@ namespace {
 
 using P = SystemParameter;
 
-/// The order in which parameters that cannot be separated are left out.
+/// The order in which parameters that cannot be separated are excluded.
 constexpr std::array<P, kSystemParameterCount> kDropOrder{
     P::lever_arm_z, P::lever_arm_y,       P::lever_arm_x,     P::scan_angle_scale,
     P::range_bias,  P::boresight_heading, P::boresight_pitch, P::boresight_roll};
@@ -68,7 +68,7 @@ double correlation(const SystemMatrix& covariance, P a, P b) {
   return covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
 }
 
-/// The parameters of a solution whose standard deviations are too large, of which one is left out;
+/// The parameters of a solution whose standard deviations are too large, of which one is excluded;
 /// no candidates where there are none.
 std::vector<P> tooUncertain(const AdjustmentSolution& solution, const std::vector<P>& estimate,
                             const DeterminationLimits& limits, double factor) {
@@ -102,7 +102,7 @@ std::string uncertainReason(const AdjustmentSolution& solution, const std::vecto
   const SystemMatrix& covariance = solution.covariance;
   const auto std_of = [&](P p) { return std::sqrt(covariance(indexOf(p), indexOf(p))); };
   const auto too_large = [&](P p) { return std_of(p) > factor * limits.of(p); };
-  // The one that is left out may be well determined and make another one uncertain.
+  // The one that is excluded may be well determined and make another one uncertain.
   P uncertain = dropped;
   for (const P p : estimate) {
     if (!too_large(dropped) && too_large(p) &&

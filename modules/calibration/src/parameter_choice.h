@@ -22,16 +22,16 @@ struct ParameterChoice {
   HeldParameters held;  ///< others, whose possible size the covariance of the solution includes
 };
 
-/** \brief Leaves out of \a wanted the parameters that the observations cannot determine, one at a
+/** \brief Excludes of \a wanted the parameters that the observations cannot determine, one at a
  * time, each with the reason.
  *
  * A parameter is not determined when the normal matrix is singular in a direction in which it has a
  * component, or when its standard deviation exceeds \a limit_factor times its limit. Of the
  * parameters that cannot be separated in one direction, the one that is most easily measured
- * otherwise is left out first: lever arm, then scale, range, heading, pitch, roll.
+ * otherwise is excluded first: lever arm, then scale, range, heading, pitch, roll.
  */
 /// \param unknown parameters that are neither estimated nor known (range_bias without control): the
-/// uncertainty of the others includes their possible size, as for those that are left out.
+/// uncertainty of the others includes their possible size, as for those that are excluded.
 ParameterChoice chooseParameters(const Adjustment& adjustment,
                                  const std::vector<SystemParameter>& wanted,
                                  const SystemVector& held, const DeterminationLimits& limits,

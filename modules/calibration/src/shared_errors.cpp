@@ -80,7 +80,7 @@ std::vector<Pass> passesOf(const std::vector<TimeSpan>& spans,
     index.push_back(is_new ? static_cast<int>(passes.size()) : index[first]);
     if (is_new) passes.push_back({spans[i], {}});
     Pass& pass = passes[static_cast<std::size_t>(index[i])];
-    // A strip that is left out has no times.
+    // A strip that is excluded has no times.
     if (pass.span.first == pass.span.second) pass.span = spans[i];
     if (spans[i].first != spans[i].second) {
       pass.span = {std::min(pass.span.first, spans[i].first),

@@ -11,7 +11,7 @@
 namespace pcl_als {
 namespace {
 
-void leaveOut(int strip, ExclusionReason reason, const SurveyMap& map, StripSelection& selection) {
+void exclude(int strip, ExclusionReason reason, const SurveyMap& map, StripSelection& selection) {
   const auto index = static_cast<std::size_t>(strip);
   selection.strips.used[index] = false;
   selection.excluded.push_back(
@@ -19,7 +19,7 @@ void leaveOut(int strip, ExclusionReason reason, const SurveyMap& map, StripSele
 }
 
 /// With pairs given by name, other strips are used for control only.
-void leaveOutUnpaired(const BlockRequest& request, BlockStrips& strips) {
+void excludeUnpaired(const BlockRequest& request, BlockStrips& strips) {
   if (request.pairs.empty() || !request.control.empty() || !strips.held.empty()) return;
   std::vector<bool> paired(strips.size(), false);
   for (const auto& [a, b] : request.pairs) {
@@ -30,7 +30,7 @@ void leaveOutUnpaired(const BlockRequest& request, BlockStrips& strips) {
     if (!paired[strip]) strips.used[strip] = false;
 }
 
-void leaveOutSmall(const SurveyMap& map, std::size_t fewest, StripSelection& selection) {
+void excludeSmall(const SurveyMap& map, std::size_t fewest, StripSelection& selection) {
   const BlockStrips& strips = selection.strips;
   for (int strip = 0; strip < static_cast<int>(strips.size()); ++strip) {
     const std::string& id = strips.ids[static_cast<std::size_t>(strip)];
@@ -40,15 +40,15 @@ void leaveOutSmall(const SurveyMap& map, std::size_t fewest, StripSelection& sel
           "strip " + id + ": " + std::to_string(map.invalidCount(strip)) +
           " points with a time or coordinate that is not finite were ignored");
     if (count >= fewest || !strips.isFlown(strip)) continue;
-    leaveOut(strip, ExclusionReason::too_few_points, map, selection);
+    exclude(strip, ExclusionReason::too_few_points, map, selection);
     selection.warnings.push_back("strip " + id + " has only " + std::to_string(count) +
-                                 " points and is left out");
+                                 " points and is excluded");
   }
 }
 
 /// Strips whose firing points are less certain than the trajectory, because their times are
 /// rounded.
-void leaveOutRoundedTimes(const BlockIndex& index, double position_std, StripSelection& selection) {
+void excludeRoundedTimes(const BlockIndex& index, double position_std, StripSelection& selection) {
   const BlockStrips& strips = selection.strips;
   std::string last;
   for (int strip = 0; strip < static_cast<int>(strips.size()); ++strip) {
@@ -62,9 +62,9 @@ void leaveOutRoundedTimes(const BlockIndex& index, double position_std, StripSel
     last = "strip " + strips.ids[static_cast<std::size_t>(strip)] +
            ": its GPS times are rounded to " + index.plausibility().timeSteps(strip) + ", " +
            along + "; lever_arm_y and boresight_pitch would be wrong";
-    leaveOut(strip, ExclusionReason::rounded_times, index.map(), selection);
+    exclude(strip, ExclusionReason::rounded_times, index.map(), selection);
     selection.warnings.push_back(last +
-                                 ": the strip is left out; give files with the original times");
+                                 ": the strip is excluded; give files with the original times");
   }
   if (last.empty() || std::count(strips.used.begin(), strips.used.end(), true) > 1) return;
   throw InputError(last + ": fewer than two strips are left; give files with the original times");
@@ -116,9 +116,9 @@ std::string objectionTo(int reference, const BlockStrips& strips, const SurveyMa
 StripSelection selectStrips(const BlockStrips& strips, const BlockIndex& index,
                             const BlockRequest& request) {
   StripSelection selection{strips, {}, {}};
-  leaveOutUnpaired(request, selection.strips);
-  leaveOutSmall(index.map(), request.settings.minimum_points, selection);
-  leaveOutRoundedTimes(index, request.settings.shared_errors.position, selection);
+  excludeUnpaired(request, selection.strips);
+  excludeSmall(index.map(), request.settings.minimum_points, selection);
+  excludeRoundedTimes(index, request.settings.shared_errors.position, selection);
   return selection;
 }
 

@@ -8,14 +8,14 @@
 
 namespace pcl_als {
 
-/// Strips of which some are left out, with the reasons.
+/// Strips of which some are excluded, with the reasons.
 struct StripSelection {
   BlockStrips strips;
   std::vector<ExcludedPoints> excluded;
   Warnings warnings;
 };
 
-/** \brief Leaves out strips that take part in no pair that was asked for, strips with few points,
+/** \brief Excludes strips that take part in no pair that was asked for, strips with few points,
  * and strips whose times are rounded to steps in which the sensor moves by more than the error of
  * its trajectory.
  *

@@ -47,16 +47,16 @@ StripNames usablePairs(const StripNames& pairs, const SurveyReader& survey, Warn
       continue;
     }
     if (label->reason == ExclusionReason::excluded)
-      throw UsageError("pairs: strip '" + label->strip + "' is left out of the strips in use",
+      throw UsageError("pairs: strip '" + label->strip + "' is not among the strips in use",
                        Hint::strips);
-    warnings.push_back("pair " + a + ":" + b + " is left out with strip " + label->strip);
+    warnings.push_back("pair " + a + ":" + b + " is excluded with strip " + label->strip);
   }
   if (usable.empty() && !pairs.empty())
     throw InputError("pairs: no pair is left; " + warnings.back().text);
   return usable;
 }
 
-std::string leftOutText(const std::vector<ExcludedPoints>& parts) {
+std::string excludedText(const std::vector<ExcludedPoints>& parts) {
   std::string text;
   for (const std::string& part : describe(parts)) text += "; " + part;
   return text;
@@ -148,7 +148,7 @@ IndexedBlock indexed(const SurveyReader& survey, const std::shared_ptr<const Tra
   try {
     return {chooseAreas(std::move(index), request), excluded};
   } catch (const InputError& error) {
-    throw InputError(error.what() + leftOutText(excluded), error.hint());
+    throw InputError(error.what() + excludedText(excluded), error.hint());
   }
 }
 

@@ -13,7 +13,7 @@ namespace pcl_als {
  *
  * For the longest line of each flying height: an opposite line, lines at half and at 1.75 times the
  * height, a crossing line, a parallel line in the same direction with 50 % overlap; and one or nine
- * control points. Additions that the block already has are left out.
+ * control points. Additions that the block already has are omitted.
  */
 std::vector<Advice> virtualAdditions(const ObservedBlock& block);
 

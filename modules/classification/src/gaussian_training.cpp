@@ -113,7 +113,7 @@ TrainingResult trainGaussianModel(const std::vector<std::string>& bands,
   for (const TrainingClass& entry : training) {
     Moments m = momentsOf(entry, size);
     if (m.n == 0) {
-      result.remarks.push_back("class " + entry.name + ": no training sample; left out");
+      result.remarks.push_back("class " + entry.name + ": no training sample; excluded");
       continue;
     }
     moments.push_back(std::move(m));

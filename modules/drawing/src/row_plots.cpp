@@ -80,7 +80,7 @@ void drawLimits(Canvas& canvas, const Axes& axes, const BeforeAfterPlot& plot) {
       const double y = box.y + 12.0 * i;
       canvas.line({x, y}, {x, std::min(y + 7.0, box.bottom())}, 1.5, ink::gray);
     }
-    // Names that would cover each other or leave the box are left out.
+    // Names that would cover each other or leave the box are excluded.
     if (x - last < 18.0 || Canvas::textSize(limit.name, style).x() > box.height - 12.0) continue;
     if (x + 20.0 > box.right()) continue;
     canvas.text(limit.name, {x + 4.0, box.y + 6.0}, style);

@@ -111,7 +111,7 @@ const Fields<ExcludedPoints>& excludedFields() {
              {Reason::excluded, Reason::zero_time, Reason::before_trajectory,
               Reason::after_trajectory, Reason::in_trajectory_gap, Reason::strip_uncovered,
               Reason::in_turn, Reason::hovering, Reason::rounded_times, Reason::too_few_points}),
-         "Why they were left out"),
+         "Why they were excluded"),
        F("points", &ExcludedPoints::points, "Number of these points"),
        F("of", &ExcludedPoints::of, "Number of all points of the strip")});
   return fields;

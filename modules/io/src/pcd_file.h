@@ -31,7 +31,7 @@ class PcdRecords {
  *
  * GPS times are zero here where most are averages of bytes (timeFault()).
  *
- * Points without finite coordinates are left out. Constant memory for ascii and binary; a
+ * Points without finite coordinates are excluded. Constant memory for ascii and binary; a
  * binary_compressed file is one compressed block and is held in memory as a whole.
  */
 class PcdFile {

@@ -153,7 +153,7 @@ class Joined {
     }
     if (kept > 0) {
       remarks_.push_back(part.path.filename().string() + ": " + std::to_string(kept) +
-                         " samples repeat those of other files and are left out");
+                         " samples repeat those of other files and are excluded");
     }
     any_accuracy_ = any_accuracy_ || stated;
     insert(added);

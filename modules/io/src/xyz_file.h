@@ -22,7 +22,7 @@ namespace pcl_als::detail {
  * Columns are separated by blanks, tabs, commas or semicolons. Their names are those of a header
  * line, which may be a comment (# or //) and must name x, y and z, or are given by the caller. A
  * file of three columns needs neither: they are x, y and z. Lines that begin with # or // are
- * comments. Points without finite coordinates are left out.
+ * comments. Points without finite coordinates are excluded.
  *
  * InputError with file and line for what is wrong with the file.
  */

@@ -105,7 +105,7 @@ bool TimeSequences<Coder, kCodesSame>::codeMultiple(Coder& coder, std::int64_t n
   unsigned symbol = Coder::kEncodes ? chooseMultiple(now) : 0;
   if constexpr (kCodesSame) {
     symbol = coder.symbol(multiples_[0], symbol);
-  } else {  // the symbol kSame is left out
+  } else {  // the symbol kSame is omitted
     symbol = coder.symbol(multiples_[0], symbol > kSame ? symbol - 1 : symbol);
     symbol += symbol >= kSame ? 1 : 0;
   }

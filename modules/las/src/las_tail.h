@@ -16,7 +16,7 @@ namespace pcl_als::detail {
  * lies behind the points of \a input: EVLRs, waveform packets, unknown bytes.
  *
  * The positions of EVLRs and waveform packets in the header are stored where they change. An
- * octree of chunks (COPC) of the input is left out, and \a extended_records also leaves out EVLRs
+ * octree of chunks (COPC) of the input is omitted, and \a extended_records also omits EVLRs
  * that describe extra bytes, because the head of the output describes them.
  */
 void copyLasTail(const LasFile& input, LasOutput& output, bool extended_records = false);

@@ -78,7 +78,7 @@ std::string readVlrs(const InputFile& file, bool keep_intact, LasHeader& header,
   if (header.vlr_count == announced) return {};
   return "the header announces " + grouped(announced) + (announced == 1 ? " VLR" : " VLRs") +
          ", but there is room for " + std::to_string(header.vlr_count) + " before the points" +
-         damage + "; the others are left out";
+         damage + "; the others are omitted";
 }
 
 void readExtendedEntries(const InputFile& file, const LasHeader& header,

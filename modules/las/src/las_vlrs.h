@@ -17,7 +17,7 @@ namespace pcl_als::detail {
  * remark about it, empty where the number is right.
  *
  * DamagedFile for a VLR that reaches past the beginning of the points; with \a keep_intact it is
- * left out with those behind it.
+ * excluded with those behind it.
  */
 std::string readVlrs(const InputFile& file, bool keep_intact, LasHeader& header,
                      std::vector<LasVlrEntry>& entries);

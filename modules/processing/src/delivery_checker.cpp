@@ -82,13 +82,13 @@ std::vector<ExcludedPoints> DeliveryChecker::surveyBlock() {
     const std::string& id = survey_.strips()[strip];
     if (map_.invalidCount(index) > 0)
       warnings_.push_back("strip " + id + ": " + counted(map_.invalidCount(index), "point") +
-                          " with a time or coordinate that is not finite left out");
+                          " with a time or coordinate that is not finite excluded");
     used_[strip] = map_.pointCount(index) >= settings_.minimum_points;
     if (used_[strip]) continue;
     const std::size_t count = map_.pointCount(index);
     excluded_.push_back({id, ExclusionReason::too_few_points, count, count});
     warnings_.push_back("strip " + id + " has only " + counted(count, "point") +
-                        " and is left out");
+                        " and is excluded");
   }
   checkTrajectory();
   for (const SurveyMap::Overlap& overlap : map_.overlaps(0.0)) {
@@ -106,7 +106,7 @@ void DeliveryChecker::checkTrajectory() {
   for (std::size_t i = 0; i < used_.size(); ++i) {
     const int strip = static_cast<int>(i);
     untimed_[i] = plausibility_->timesTooCoarse(strip);
-    if (!used_[i] || untimed_[i]) plausibility_->leaveOut(strip);
+    if (!used_[i] || untimed_[i]) plausibility_->exclude(strip);
     if (!used_[i] || !untimed_[i]) continue;
     warnings_.push_back("strip " + survey_.strips()[i] + ": its GPS times are rounded to " +
                         plausibility_->timeSteps(strip) +

@@ -28,7 +28,7 @@ void compare(const SurveyReader& survey, const std::shared_ptr<const Trajectory>
   const std::vector<ExcludedPoints> excluded = survey.read(SurveyReader::asReturns(add));
   for (std::size_t i = 0; i < scanners.size(); ++i) {
     assessment.scanners.push_back({survey.strips()[i], scanners[i].assess()});
-    if (survey.pointsByStrip()[i] < kFewPoints) plausibility.leaveOut(static_cast<int>(i));
+    if (survey.pointsByStrip()[i] < kFewPoints) plausibility.exclude(static_cast<int>(i));
   }
   for (const ExcludedPoints& part : excluded) {
     if (part.reason != ExclusionReason::excluded) assessment.warnings.push_back(describe(part));

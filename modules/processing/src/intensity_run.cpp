@@ -138,7 +138,7 @@ void IntensityRun::alignTimes() {
   remarks_.push_back(objection + ": left as it is");
 }
 
-/// Cells contain some points of the sparsest strip; a share of the cells is left out to bound
+/// Cells contain some points of the sparsest strip; a share of the cells is excluded to bound
 /// memory.
 void IntensityRun::chooseCells() {
   const double widest = radii_.empty() ? 2.0 : *std::max_element(radii_.begin(), radii_.end());

@@ -180,7 +180,7 @@ CheckReport collectChecks(const std::vector<ClassSite>& sites, const MaximumLike
     }
   }
   if (outside > 0)
-    report.remarks.push_back(counted(outside, "check site") + " outside of the rasters, left out");
+    report.remarks.push_back(counted(outside, "check site") + " outside of the rasters, excluded");
   if (unclassified > 0)
     report.remarks.push_back(counted(unclassified, "check point") +
                              " on cells without a class, counted as wrong");

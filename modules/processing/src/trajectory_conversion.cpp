@@ -85,7 +85,7 @@ void correct(const Options& options, const LoadedTrajectory& flight,
                   "taken out; boresight, range bias and scan angle scale are parameters of the "
                   "scanner and not part of a trajectory");
   if (corrected.excluded > 0) {
-    progress.remark("left out: " + grouped(corrected.excluded) +
+    progress.remark("excluded: " + grouped(corrected.excluded) +
                     " samples at times that the calibration does not cover");
   }
   if (corrected.angles_excluded) {

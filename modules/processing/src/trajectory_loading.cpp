@@ -43,8 +43,8 @@ void settleAttitudes(const std::vector<TrajectoryFile*>& files,
   }
 }
 
-/// Leaves out samples that contradict their neighbours.
-void leaveOutOutliers(TrajectoryFile& file, const std::filesystem::path& path) {
+/// Excludes samples that contradict their neighbours.
+void excludeOutliers(TrajectoryFile& file, const std::filesystem::path& path) {
   const TrajectoryScreening screening = screenTrajectory(file.samples);
   const auto name = [&](std::size_t sample) { return file.places.name(sample); };
   const std::string objection = screening.objection(name);
@@ -67,7 +67,7 @@ TrajectoryFile readScreened(const std::vector<std::filesystem::path>& paths,
   std::vector<std::string> names;
   for (const std::filesystem::path& path : files) {
     parts.push_back(readTrajectoryFile(path, options));
-    leaveOutOutliers(parts.back(), path);
+    excludeOutliers(parts.back(), path);
     names.push_back(path.string());
   }
   std::vector<TrajectoryFile*> all;

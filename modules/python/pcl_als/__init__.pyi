@@ -235,7 +235,7 @@ class CalibrationSettings:
     def minimum_overlap(self, value: float) -> None: ...
     @property
     def minimum_points(self) -> int:
-        """strips with fewer points are left out"""
+        """strips with fewer points are excluded"""
     @minimum_points.setter
     def minimum_points(self, value: int) -> None: ...
     @property
@@ -531,7 +531,7 @@ class FileCorrection:
         """recovery of pitch and crab from this file, where the calibration has none"""
     @property
     def flight_remark(self) -> str:
-        """that the calibration is of another flight, whose own part is left out"""
+        """that the calibration is of another flight, whose own part is not used"""
     @property
     def points(self) -> int:
         """number of points"""
@@ -774,7 +774,7 @@ class LeftOutPoints:
         """points of the strip"""
     @property
     def points(self) -> int:
-        """number of points that were left out"""
+        """number of points that were excluded"""
     @property
     def reason(self) -> str:
         """'excluded', 'before_trajectory', 'too_few_points', ..."""
@@ -1195,7 +1195,7 @@ class StripChoice:
     def split(self, value: bool) -> None: ...
     @property
     def without(self) -> list[str]:
-        """names of strips to leave out"""
+        """names of strips to exclude"""
     @without.setter
     def without(self, value: Iterable[str]) -> None: ...
 

@@ -116,7 +116,7 @@ void bindSettings(py::module_& m) {
                      "standard deviation of control points whose file gives none, m")
       .def_readwrite("minimum_overlap", &Settings::minimum_overlap, "of a pair of strips, m^2")
       .def_readwrite("minimum_points", &Settings::minimum_points,
-                     "strips with fewer points are left out")
+                     "strips with fewer points are excluded")
       .def_readwrite("recover_attitude", &Settings::recover_attitude,
                      "recover pitch and crab from the points where the trajectory has no attitude")
       .def_readwrite("diagnose", &Settings::diagnose, "look for further error sources")

@@ -40,7 +40,7 @@ void bindCorrectedFile(py::module_& m) {
       .field("attitude_remark", &FileCorrection::attitude_remark,
              "recovery of pitch and crab from this file, where the calibration has none")
       .field("flight_remark", &FileCorrection::flight_remark,
-             "that the calibration is of another flight, whose own part is left out")
+             "that the calibration is of another flight, whose own part is not used")
       .state(&FileCorrection::warnings)
       .property("warnings",
                 [](const FileCorrection& f) { return hintedTexts("correct_file", f.warnings); })

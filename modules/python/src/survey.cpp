@@ -7,7 +7,7 @@
 #include <pybind11/eigen.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 
 #include "arguments.h"
 #include "bindings.h"
@@ -50,7 +50,7 @@ void bindChoices(py::module_& m) {
            }),
            py::arg("only"))
       .def_readwrite("only", &StripChoice::only, "names of the strips that are used; empty: all")
-      .def_readwrite("without", &StripChoice::without, "names of strips to leave out")
+      .def_readwrite("without", &StripChoice::without, "names of strips to exclude")
       .def_readwrite("split", &StripChoice::split,
                      "cut files without source ids into flight lines at gaps and turns")
       .def_readwrite("keep_timeless", &StripChoice::keep_timeless,
@@ -67,7 +67,7 @@ void bindExcluded(py::module_& m) {
       .property(
           "reason", [](const ExcludedPoints& part) { return std::string(toString(part.reason)); },
           "'excluded', 'before_trajectory', 'too_few_points', ...")
-      .field("points", &ExcludedPoints::points, "number of points that were left out")
+      .field("points", &ExcludedPoints::points, "number of points that were excluded")
       .field("of", &ExcludedPoints::of, "points of the strip")
       .bind()
       .def("__str__", [](const ExcludedPoints& part) { return describe(part); });

@@ -24,7 +24,7 @@ struct PointNoise {
 
 /** \brief Forms the pairs of both directions in all areas, with the source moved.
  *
- * \param groups cells whose pairs the jackknife leaves out together.
+ * \param groups cells whose pairs the jackknife excludes together.
  * \param stride only every stride-th candidate is used. The order of the pairs and their values do
  * not depend on the number of threads.
  */

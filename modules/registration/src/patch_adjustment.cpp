@@ -23,7 +23,7 @@ constexpr double kLeastScatter = 1e-6;  // metres
 constexpr std::size_t kChunk = 8192;
 constexpr int kPasses = 3;        // solutions from the same pairs
 constexpr double kChance = 0.05;  // of larger variances between parts, without shared errors
-constexpr std::size_t kFewestStrips = 6;  // of cells, left out one at a time
+constexpr std::size_t kFewestStrips = 6;  // of cells, excluded one at a time
 // The contribution of the noise of normals to the normal matrix is a mean: a sample of pairs
 // suffices.
 constexpr std::size_t kNoiseSample = 8, kEnoughToSample = 20'000;

@@ -148,15 +148,15 @@ Unknowns solveDetermined(const NormalEquations& equations, const Directions& dir
                          double prior_information = 0.0);
 /// N^-1 in the determined directions, zero in the others.
 UnknownsMatrix cofactor(const NormalEquations& equations, const Directions& directions);
-/// Covariance of the solution from leaving out one group at a time, metres squared; zero with fewer
+/// Covariance of the solution from excluding one group at a time, metres squared; zero with fewer
 /// than \a fewest groups that have a weight.
 UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Directions& directions,
                          std::size_t fewest = kFewestGroups);
 /** \brief The same with variances that are larger where squares of four cells, or strips of cells
- * in either direction, are left out: where they exceed those of cells by more than chance (95 %).
+ * in either direction, are excluded: where they exceed those of cells by more than chance (95 %).
  *
  * Errors that are shared over more than a cell, as those of a strip that bends along its time, are
- * not seen when single cells are left out.
+ * not seen when single cells are excluded.
  */
 UnknownsMatrix jackknifeOfParts(const std::vector<NormalEquations>& cells, const PlanGrid& grid,
                                 const Directions& directions);

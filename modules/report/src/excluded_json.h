@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 
 namespace pcl_als {
 

@@ -43,7 +43,7 @@ Json heading(const TrajectoryFacts& facts) {
   return json;
 }
 
-/// Samples that are left out where the trajectory is used, and what makes it unusable.
+/// Samples that are excluded where the trajectory is used, and what makes it unusable.
 void addOutliers(Json& json, const TrajectoryFacts& facts) {
   const TrajectoryScreening screening = screenTrajectory(facts.local);
   const auto name = [&](std::size_t sample) { return facts.places.name(sample); };

@@ -141,7 +141,7 @@ std::string countsText(const IntensityCounts& counts, const IntensityRun& run) {
         << " without coordinates\n";
   if (counts.excluded > 0)
     out << "  left as they are: " << grouped(counts.excluded)
-        << " points of strips that are left out\n";
+        << " points of strips that are excluded\n";
   if (counts.zeros + counts.saturated > 0)
     out << "  of intensity 0: " << grouped(counts.zeros) << " points; saturated ("
         << run.saturation() << " and more): " << grouped(counts.saturated)

@@ -44,7 +44,7 @@ void remarkOnLeverArm(MountingReport& report) {
   if (!report.input.lever_arm) {
     report.remarks.push_back(formatted(
         "the old lever arm was not given: its values are those to be added to it. The correction "
-        "of the angles also turns the lever arm, by %.2f mm per metre, which is left out",
+        "of the angles also turns the lever arm, by %.2f mm per metre, which is not included",
         1e3 *
             Eigen::AngleAxisd(
                 mountingFrame(report.input.convention, report.correction.after).body_from_scanner *

@@ -107,7 +107,7 @@ const Fields<Blunder>& blunderFields() {
     return b.image.empty() ? "control line" : b.line ? "line" : "point";
   };
   static const Fields<B> fields(
-      "blunder", "A measurement that was left out.",
+      "blunder", "A measurement that was excluded.",
       {{"kind", kind, "What was measured", oneOf({"control line", "line", "point"})},
        {"feature", &B::feature, "Name of the line or point"},
        {"image", &B::image, "The image; null of a control line",

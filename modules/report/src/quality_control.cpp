@@ -45,7 +45,7 @@ const Fields<ControlDifference>& differenceFields() {
        {"above_m", &D::above, "Height of the strip above control"},
        {"slope_deg", &D::slope, "Slope of the surface", in(kRadiansPerDegree)},
        {"roughness_m", &D::roughness, "Roughness of the surface"},
-       {"left_out_because", &D::unfit, "Why it is left out of the statistics", unlessEmpty}});
+       {"left_out_because", &D::unfit, "Why it is excluded from the statistics", unlessEmpty}});
   return fields;
 }
 

@@ -45,7 +45,7 @@ ReportTable rayTable(const ReconstructedTrajectory& flight) {
                     "Rays through two returns of a pulse: number, those that miss the path, median "
                     "separation of the returns (m); standard deviation of a return across its ray "
                     "and of a ray apart from it (m)",
-                    {"strip", "rays", "left out", "separation", "across", "apart"},
+                    {"strip", "rays", "excluded", "separation", "across", "apart"},
                     {}};
   for (const ReconstructedPath& path : flight.paths) {
     if (!path.found || path.rays == 0) continue;

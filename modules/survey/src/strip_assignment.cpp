@@ -239,7 +239,7 @@ bool StripAssignment::losesTimeless(const Key& key, const StripChoice& choice) c
                      [](const PointSource& source) { return source.hasTimes(); });
 }
 
-/// The reason for which a part is left out as a whole, if any, and its number of covered points.
+/// The reason for which a part is excluded as a whole, if any, and its number of covered points.
 std::optional<ExclusionReason> StripAssignment::exclusionReason(const Piece& piece,
                                                                 const StripChoice& choice,
                                                                 std::uint64_t& covered) const {

@@ -71,7 +71,7 @@ class Division {
     return bins_[span.second - 1].last - bins_[span.first].first;
   }
   bool isPassage(const Part& before, const Part& part, const Part& after) const;
-  void leaveOutRemnants(std::vector<Part>& parts) const;
+  void excludeRemnants(std::vector<Part>& parts) const;
 
   const Bins& bins_;
   TrackMotion motion_;
@@ -209,11 +209,11 @@ bool Division::isPassage(const Part& before, const Part& part, const Part& after
 }
 
 /// Lines between turns or hovering that are none: passages, and those too short to have a course.
-void Division::leaveOutRemnants(std::vector<Part>& parts) const {
+void Division::excludeRemnants(std::vector<Part>& parts) const {
   std::vector<std::size_t> lines, remnants;
   for (std::size_t i = 0; i < parts.size(); ++i)
     if (!parts[i].reason) lines.push_back(i);
-  // Whether line k and the one before are parted by points that are left out, and by no long gap.
+  // Whether line k and the one before are parted by points that are excluded, and by no long gap.
   const auto joined = [&](std::size_t k) {
     bool near = lines[k] > lines[k - 1] + 1;
     for (std::size_t i = lines[k - 1] + 1; i <= lines[k]; ++i)
@@ -233,7 +233,7 @@ void Division::leaveOutRemnants(std::vector<Part>& parts) const {
 
 std::vector<TimeStretch> Division::stretches() const {
   std::vector<Part> all = parts();
-  leaveOutRemnants(all);
+  excludeRemnants(all);
   std::vector<TimeStretch> found;
   for (const Part& part : all) {
     TimeStretch stretch{bins_[part.bins.first].first, bins_[part.bins.first].last, part.reason};

@@ -134,7 +134,7 @@ void dropIsolated(std::vector<TrajectorySample>& samples, double gap_threshold,
   }
   repairs.push_back(
       "trajectory: " + std::to_string(samples.size() - kept.size()) +
-      withTime(" sample(s) alone between gaps left out, first at %.6f s", dropped->time));
+      withTime(" sample(s) alone between gaps excluded, first at %.6f s", dropped->time));
   samples = std::move(kept);
 }
 

@@ -102,7 +102,7 @@ Trajectory::Trajectory(std::vector<TrajectorySample> samples, const Options& opt
     : half_width_(options.line_fit_half_width), planes_(options.scan_planes) {
   checkOptions(options);
   detail::refuseUnusable(samples);
-  if (options.screen_samples) leaveOutOutliers(samples);
+  if (options.screen_samples) excludeOutliers(samples);
   detail::sortAndMerge(samples, repairs_);
   gap_threshold_ = detail::gapThreshold(samples, options.gap_threshold);
   detail::dropIsolated(samples, gap_threshold_, repairs_);
@@ -119,7 +119,7 @@ Trajectory::Trajectory(std::vector<TrajectorySample> samples, const Options& opt
   buildIndex();
 }
 
-void Trajectory::leaveOutOutliers(std::vector<TrajectorySample>& samples) {
+void Trajectory::excludeOutliers(std::vector<TrajectorySample>& samples) {
   const TrajectoryScreening screening = screenTrajectory(samples);
   const std::string objection = screening.objection();
   if (!objection.empty()) throw InputError("trajectory: " + objection);

@@ -55,7 +55,7 @@ double largestShare(const ReconstructedPath& path) {
                            : std::numeric_limits<double>::infinity();
 }
 
-/// Leaves out samples that are not determined.
+/// Excludes samples that are not determined.
 void trim(ReconstructedPath& path) {
   const double limit = TrajectoryReconstruction::kLargestShare * path.height;
   const std::size_t all = path.samples.size();
@@ -133,7 +133,7 @@ void addFindings(const PathEvidence& evidence, ReconstructedPath& path) {
   const std::string steps = evidence.times().describe();
   if (!steps.empty()) warn("times are in " + steps);
   if (path.rays > 0 && path.rejected > path.rays / 5)
-    warn(formatted("%.0f %% of the rays miss the path and are left out",
+    warn(formatted("%.0f %% of the rays miss the path and are excluded",
                    100.0 * static_cast<double>(path.rejected) / static_cast<double>(path.rays)));
 }
 

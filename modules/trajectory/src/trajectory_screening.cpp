@@ -102,7 +102,7 @@ std::string TrajectoryScreening::describe(const SampleName& name) const {
   return std::to_string(count) + " of " + grouped(samples) + " samples " +
          (count == 1 ? "contradicts its neighbours and is"
                      : "contradict their neighbours and are") +
-         " left out: " + describeRuns(outliers, name);
+         " excluded: " + describeRuns(outliers, name);
 }
 
 TrajectoryScreening screenTrajectory(const std::vector<TrajectorySample>& samples) {

@@ -8,7 +8,7 @@
 namespace pcl_als::detail {
 namespace {
 
-/// Values of the matched filter below this share of the maximum are left out.
+/// Values of the matched filter below this share of the maximum are excluded.
 constexpr double kKernelShare = 0.1;
 /// Share of a penalty at which a full adjustment is tried.
 constexpr double kScreening = 0.6;

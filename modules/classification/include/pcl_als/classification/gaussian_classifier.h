@@ -38,7 +38,7 @@ struct TrainingClass {
 
 struct TrainingResult {
   GaussianModel model;
-  std::vector<std::string> remarks;  ///< classes left out or regularised, and why
+  std::vector<std::string> remarks;  ///< classes excluded or regularised, and why
 };
 
 /** \brief Means and covariances (n - 1) of classes, with equal priors.
@@ -48,7 +48,7 @@ struct TrainingResult {
  * where D has the variances within classes, pooled over all classes, on its diagonal: w = 0 from 10
  * samples per band on, otherwise m / (m + n - 1) with m = bands + 1. In addition w is increased, in
  * powers of ten from 1e-4 on, until no direction has less than 1e-6 of its variance in D. Every w >
- * 0 is reported. Classes without samples and samples that are not finite are left out.
+ * 0 is reported. Classes without samples and samples that are not finite are excluded.
  *
  * UsageError when fewer than two classes remain, or samples do not have one value per band.
  */

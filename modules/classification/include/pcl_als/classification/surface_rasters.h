@@ -68,7 +68,7 @@ struct CellCounts {
  *
  * Cells without returns are interpolated (surface, intensity, terrain): linearly in the TIN of the
  * cells with returns, or by inverse squared distances from the nearest of them; cells further from
- * any return stay empty. Points of the classes 7 and 18 (noise) are left out.
+ * any return stay empty. Points of the classes 7 and 18 (noise) are excluded.
  *
  * A tile with SurfaceOptions::margin() cells around it has the values of the whole block. Memory:
  * 76 bytes per cell, in compute() up to 300 more; none per point.

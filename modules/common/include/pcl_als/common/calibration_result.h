@@ -16,8 +16,8 @@
 #include <pcl_als/common/bias_prior.h>
 #include <pcl_als/common/calibration_verdict.h>
 #include <pcl_als/common/error_source.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/large_correction.h>
-#include <pcl_als/common/left_out.h>
 #include <pcl_als/common/recovered_attitude.h>
 #include <pcl_als/common/scan_planes.h>
 #include <pcl_als/common/strip_group.h>

@@ -72,7 +72,7 @@ struct ReferenceTarget {
   double sigma = 0.0;        ///< standard deviation of the reflectance; 0: not stated
 };
 
-/// What a receiver multiplies intensities by where its gain control stands at a value.
+/// Gain of the receiver as a function of the value of the automatic gain control (AGC).
 struct GainStep {
   double value = 0.0, gain = 1.0;
 };

@@ -104,7 +104,7 @@ StatedCrs usableCrs(const std::string& stated);
 /// foot and US survey foot.
 std::optional<LengthUnit> unitOfEpsgCode(unsigned code);
 
-/// Of a long WKT its beginning, for messages.
+/// The CRS as it appears in messages: of a long WKT, the beginning.
 std::string shortCrsName(const std::string& crs);
 
 }  // namespace pcl_als

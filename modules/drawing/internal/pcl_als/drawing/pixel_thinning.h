@@ -16,7 +16,7 @@ namespace pcl_als {
  *
  * A picture therefore needs memory for its pixels (24 bytes each) and not for its points, and does
  * not depend on the division of the points into chunks. Points whose coordinates are not finite or
- * outside the picture are counted and left out.
+ * outside the picture are counted and excluded.
  */
 class PixelThinning {
  public:

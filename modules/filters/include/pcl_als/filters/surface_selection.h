@@ -17,7 +17,7 @@ namespace pcl_als {
  * and not as steep as a wall. The TIN consists of the last returns of the whole cloud that are not
  * classified as vegetation (3-5) or noise (7, 18) and not withheld: setIndices() limits the
  * selection and not the surface. Leaves, wires, edges of roofs, and points at the border of the
- * cloud are left out.
+ * cloud are excluded.
  *
  * The cloud must be one strip: with several, the offsets between them would count as roughness.
  * Fields used where the type has them: return_number and number_of_returns, classification, flags.

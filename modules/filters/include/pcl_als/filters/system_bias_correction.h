@@ -135,7 +135,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void setNumberOfThreads(int threads) { threads_ = requiredThreads(threads); }
   int getNumberOfThreads() const { return threads_; }
 
-  /// Numbers of points that the last filter() corrected or left out, by reason.
+  /// Numbers of points that the last filter() corrected or excluded, by reason.
   const CoverageCount& getCoverage() const { return coverage_; }
 
  protected:

@@ -32,7 +32,7 @@ void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip,
 
 /** \brief Reads any PCD with float or double x, y, z; fields are found by name without regard to
  * case and underscores, those that are missing keep PointLidar's defaults, points without finite
- * coordinates are left out.
+ * coordinates are excluded.
  *
  * The id is that of savePcd; else the point source id where all points have the same and it is not
  * 0; else the file's stem. The frame's origin is the VIEWPOINT of files of this library; in others

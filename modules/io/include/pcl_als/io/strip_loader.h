@@ -27,7 +27,7 @@ std::vector<Strip<PointLidar>> loadStrips(const std::vector<std::filesystem::pat
 
 /// The points and the fields of them that are loaded.
 struct StripLoading {
-  PointWindow window;                ///< points outside are left out
+  PointWindow window;                ///< points outside are excluded
   bool all_columns = false;          ///< with every PointColumn that the files have
   std::vector<std::string> columns;  ///< with these; InputError for one that no file has
 };
@@ -36,7 +36,7 @@ struct StripLoading {
  * which take 8 bytes per value, and of a part of the files.
  *
  * Points of files that lack a field which others have get NaN where its type is a floating-point
- * one, else 0. Extra bytes of undocumented type are left out; arrays of two and three values are
+ * one, else 0. Extra bytes of undocumented type are omitted; arrays of two and three values are
  * NAME[0], NAME[1] and NAME[2]. InputError where no point is in the window.
  */
 std::vector<StripWithColumns> loadStrips(const std::vector<std::filesystem::path>& files,

@@ -126,7 +126,7 @@ TrajectoryFile readTrajectoryFile(const std::filesystem::path& path,
  * Each path is a file or a folder, of which all files that may be a trajectory are read in order of
  * their names. Files may be of different formats. Seconds of the week and absolute times are
  * brought to one scale. A sample whose time and place (within 5 mm and 2e-5 rad) another file holds
- * is left out; where files differ at times that both cover, InputError names both, the time and the
+ * is excluded; where files differ at times that both cover, InputError names both, the time and the
  * distance. The time between files remains a gap of the trajectory.
  */
 TrajectoryFile readTrajectoryFiles(const std::vector<std::filesystem::path>& paths,

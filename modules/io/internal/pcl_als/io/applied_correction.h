@@ -43,7 +43,7 @@ using AppliedCorrections = std::vector<AppliedCorrection>;  ///< in order of the
 /// The corrections of a record (PointFileInfo::corrections); none for an empty text. A text that
 /// cannot be read is one correction of kind unreadable.
 AppliedCorrections parseCorrections(const std::string& record);
-/// The record as one line of JSON; empty for no corrections. The oldest corrections are left out
+/// The record as one line of JSON; empty for no corrections. The oldest corrections are omitted
 /// where a VLR could not hold all of them.
 std::string correctionsRecord(const AppliedCorrections& corrections);
 

@@ -40,7 +40,7 @@ struct AccuracySummary {
 /// Over the records within \a spans, or a second from them; without spans over all.
 AccuracySummary summarize(const std::vector<TrajectoryAccuracy>& accuracies,
                           const std::vector<TimeRange>& spans = {});
-/// "position 0.021 m, roll and pitch 9.0 arcsec, heading 21 arcsec"; unknown ones are left out.
+/// "position 0.021 m, roll and pitch 9.0 arcsec, heading 21 arcsec"; unknown ones are omitted.
 std::string describe(const AccuracySummary& summary);
 
 }  // namespace pcl_als

@@ -28,7 +28,7 @@ struct LasScaling {
 /// What a LasFile does with a file that is damaged or cut off behind its header and VLRs.
 enum class LasDamage {
   refuse,
-  keep_intact  ///< LasFile::intact() can be read; extended VLRs that are lost are left out
+  keep_intact  ///< LasFile::intact() can be read; extended VLRs that are lost are omitted
 };
 
 /// The part of a damaged file that can be read.

@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/progress.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/common/warning.h>

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/common/warning.h>
 #include <pcl_als/processing/separation_image.h>

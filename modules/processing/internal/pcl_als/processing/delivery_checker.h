@@ -33,7 +33,7 @@ class DeliveryChecker {
   DeliveryChecker(SurveyReader& survey, const CheckSettings& settings,
                   std::shared_ptr<const Trajectory> trajectory);
 
-  /// First pass: the ground that each strip covers. Returns the points that the reader left out.
+  /// First pass: the ground that each strip covers. Returns the points that the reader excluded.
   /// InputError when no strips overlap.
   std::vector<ExcludedPoints> surveyBlock();
   const std::vector<SurveyMap::Overlap>& overlaps() const { return overlaps_; }

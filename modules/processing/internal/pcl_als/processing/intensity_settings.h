@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/radiometry/local_surfaces.h>
 #include <pcl_als/radiometry/overlap_adjustment.h>

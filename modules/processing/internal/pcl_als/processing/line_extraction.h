@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/progress.h>
 #include <pcl_als/photogrammetry/roof_lines.h>
 #include <pcl_als/survey/strip_assignment.h>

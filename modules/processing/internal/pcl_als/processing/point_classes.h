@@ -41,7 +41,7 @@ class PointClasses {
 /** \brief A copy of a point file with the ASPRS codes of land cover in its classification.
  *
  * .las and .laz record by record in constant memory, with all other bytes unchanged. Points without
- * a class, points of noise (7, 18), and points that \a survey leaves out keep their code; \a place:
+ * a class, points of noise (7, 18), and points that \a survey excludes keep their code; \a place:
  * index of the file in the survey.
  */
 PointClassCounts classifyPointFile(const std::filesystem::path& input,

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/progress.h>
 #include <pcl_als/io/point_window.h>
 #include <pcl_als/las/las_version.h>
@@ -17,7 +17,7 @@
 namespace pcl_als {
 
 struct PointConversionOptions {
-  PointWindow window;  ///< points outside are left out
+  PointWindow window;  ///< points outside are excluded
   /// Strips whose points are written, those of the points in the window. With StripChoice::split
   /// one file for each strip.
   StripChoice strips;
@@ -54,7 +54,7 @@ struct PointConversionResult {
  * - LAS and LAZ to LAS or LAZ: the records as they are, in their order, with every other byte of
  *   the file. Of a part, the counts and the bounding box of the header are those of its points.
  *   LAS -> LAZ -> LAS gives the same bytes. Records that describe the compression of the input
- *   (laszip, COPC) are replaced or left out.
+ *   (laszip, COPC) are replaced or omitted.
  * - to PCD: the fields of PointLidar, in metres, relative to the centre of the points (PcdWriter).
  * - to PLY and XYZ: the fields of PointLidar with coordinates in metres and double
  * (ExchangeWriter).

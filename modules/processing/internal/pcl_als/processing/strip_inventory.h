@@ -19,7 +19,7 @@ struct InventoryRequest {
   double cell = 0.0;  ///< metres, as for takeInventory()
   StripChoice strips;
   PointWindow window;
-  /// Of the flight; empty: strips are those of the points alone.
+  /// Files of the trajectory; if empty, strips are divided by the points alone.
   std::vector<std::filesystem::path> trajectory;
   TrajectoryReading reading;  ///< with an empty crs: that of the points
   int threads = 0;            ///< 0: all cores

@@ -33,7 +33,7 @@ struct StripPart {
 
 /** \brief Positions of a strip inside a plan box: 12 bytes each, floats relative to an origin in
  * the middle of the box. First of several returns, vegetation (classes 3 to 5), noise (7 and 18)
- * and withheld points are left out.
+ * and withheld points are excluded.
  */
 struct StripPoints {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <pcl_als/classification/surface_rasters.h>
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/point_file_info.h>
 #include <pcl_als/common/raster.h>
 #include <pcl_als/survey/strip_choice.h>

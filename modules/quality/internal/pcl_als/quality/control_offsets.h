@@ -20,7 +20,7 @@ struct ControlDifference {
   double above = 0.0;                                  ///< strip - control, metres
   double slope = 0.0;                                  ///< of the surface, radians
   double roughness = 0.0;                              ///< metres
-  std::string unfit;  ///< reason for which it is left out of the statistics; empty: it is used
+  std::string unfit;  ///< reason for which it is excluded from the statistics; empty: it is used
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the surface, unit, upward
   double slope_std = 0.0;  ///< radians; of the normal, by the roughness of the surface
 };

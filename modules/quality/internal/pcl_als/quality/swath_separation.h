@@ -20,7 +20,7 @@ namespace pcl_als {
  * Lidar Base Specification: that separation as green, yellow or red over the intensity.
  *
  * For every cell and strip the mean position, height and intensity of the last returns are stored
- * (withheld points and noise left out, as the specification requires; no threshold), and the return
+ * (withheld points and noise excluded, as the specification requires; no threshold), and the return
  * nearest to the centre of the cell, which replaces the mean where the cell contains several
  * surfaces (a step of half a metre). Where strips share a cell, the height of each is reduced to
  * the centre of the cell along the local slope, which is estimated from the neighbouring cells

@@ -14,9 +14,9 @@ namespace pcl_als {
 
 /** \brief The patches of a cloud, with the point of the cloud at each vertex.
  *
- * Points with a coordinate that is not finite are left out. Fewer than three points, or points in
+ * Points with a coordinate that is not finite are excluded. Fewer than three points, or points in
  * one line in plan, give a surface without patches. Memory: that of Tin, and 4 bytes per point
- * where points were left out.
+ * where points were excluded.
  */
 struct CloudSurface {
   using ConstPtr = std::shared_ptr<const CloudSurface>;

@@ -29,8 +29,8 @@ namespace pcl_als {
  * Frames: both clouds in one local frame, z up, metres. The surface must have one height at a plan
  * position; under overhangs and in trees the TIN is not a surface, and CorrespondenceRejectorPatch
  * rejects its patches. The TIN of the target is built when a new target was set; pcl::Registration
- * does that once for each align(). Points that are not finite are left out of both clouds. A target
- * of fewer than three points, or of points in one line, has no patches and gives no
+ * does that once for each align(). Points that are not finite are excluded from both clouds. A
+ * target of fewer than three points, or of points in one line, has no patches and gives no
  * correspondences. Memory: 73 bytes per target point, 4 per source point and 100 per
  * correspondence.
  *

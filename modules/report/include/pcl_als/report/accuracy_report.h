@@ -9,7 +9,7 @@
 
 #include <pcl_als/classification/accuracy_assessment.h>
 #include <pcl_als/common/class_site.h>
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/io/class_io.h>
 
 namespace pcl_als {
@@ -24,7 +24,7 @@ struct AccuracyReport {
   std::optional<AccuracyResult> other;
   std::optional<AccuracyComparison> comparison;
   std::vector<std::string> inputs, remarks;
-  std::vector<ExcludedPoints> excluded;  ///< points of strips that were left out
+  std::vector<ExcludedPoints> excluded;  ///< points of strips that were excluded
 };
 
 /// The accuracy of a classification from a file of a confusion matrix or of check points, and its

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/registration/patch_alignment_result.h>
 
 namespace pcl_als {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/io/dataset_inventory.h>
 #include <pcl_als/io/trajectory_io.h>
 #include <pcl_als/processing/flight_assessment.h>

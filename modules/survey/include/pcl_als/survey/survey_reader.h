@@ -16,7 +16,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/point_chunk.h>
 #include <pcl_als/common/progress.h>
@@ -40,7 +40,7 @@ struct SurveyedFile;
  * cloud from makeCloudInput().
  *
  * Strips are those of StripAssignment, divided by the channel of the scanner where
- * StripChoice::by_channel asks for it; points that it leaves out are counted and not passed on.
+ * StripChoice::by_channel asks for it; points that it excludes are counted and not passed on.
  *
  * Points are columns of a PointChunk: positions in metres in the ground frame (the CRS of
  * reference()), times in seconds as the file counts them, with the conversion to the clock of the
@@ -57,7 +57,7 @@ class SurveyReader {
  public:
   /// Points [from, to) of a chunk, all of one strip, with every field.
   struct Run {
-    int strip;          ///< index among strips(); -1: left out (runAt() only)
+    int strip;          ///< index among strips(); -1: excluded (runAt() only)
     std::size_t label;  ///< index among StripAssignment::labels()
     std::size_t file;   ///< index among files()
     const PointChunk& chunk;
@@ -80,7 +80,7 @@ class SurveyReader {
   struct Flight {
     const Trajectory* trajectory = nullptr;
     std::optional<int> gps_week;
-    /// Whether points without trajectory are left out; otherwise they are read.
+    /// Whether points without trajectory are excluded; otherwise they are read.
     bool needed = true;
   };
 
@@ -151,7 +151,7 @@ class SurveyReader {
     /// own: each process gets all points of its own strips and none of the others (collective).
     /// all: this process gets all points of all strips, whatever the others do.
     /// first: the first process gets all points of all strips, the others none (collective);
-    /// only the first one learns which points were left out.
+    /// only the first one learns which points were excluded.
     enum class Share { own, all, first };
     Share share = Share::own;
     std::vector<std::size_t> files;  ///< indices of the files that are read; empty: all
@@ -166,14 +166,14 @@ class SurveyReader {
     }
   };
   /** \brief Calls \a visit with all points, in runs of one strip; from several threads for
-   * different strips. Returns the points that were left out.
+   * different strips. Returns the points that were excluded.
    *
    * May be called by several threads at once, where no progress is set.
    */
   std::vector<ExcludedPoints> read(const Visitor& visit, const Reading& reading) const;
   std::vector<ExcludedPoints> read(const Visitor& visit) const { return read(visit, Reading()); }
 
-  /// The points of each strip, and those that are left out.
+  /// The points of each strip, and those that are excluded.
   struct Contents {
     std::vector<std::uint64_t> points;       ///< by strip
     std::vector<Eigen::AlignedBox3d> boxes;  ///< of these, metres
@@ -185,7 +185,7 @@ class SurveyReader {
   /// Reads all points.
   Contents measure() const;
 
-  /// The run that begins with a row of a chunk of a file, also of points that are left out, for
+  /// The run that begins with a row of a chunk of a file, also of points that are excluded, for
   /// jobs that rewrite files; strips are not divided by channel. Thread-safe.
   Run runAt(std::size_t file, const PointChunk& chunk, std::size_t from) const;
 

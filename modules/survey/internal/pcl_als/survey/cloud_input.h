@@ -21,7 +21,7 @@ namespace pcl_als {
 /// origin), a tenth of the noise of points: such a cloud is probably without its frame.
 void requireFineFloats(const PointFileInfo& cloud);
 
-/** \brief Reads a cloud as if it were a point file. Points that are not finite are left out.
+/** \brief Reads a cloud as if it were a point file. Points that are not finite are excluded.
  *
  * The points of a cloud and those of the PCD file that savePcd() writes of it are equal to the last
  * bit. Fields that the type lacks are those of PointFields. Memory: one chunk. requireFineFloats()

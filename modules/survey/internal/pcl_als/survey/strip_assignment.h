@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/time_alignment.h>
 #include <pcl_als/survey/strip_choice.h>
 #include <pcl_als/survey/strip_split.h>
@@ -32,11 +32,11 @@ struct FlownTimes {
   /// By file; empty: the times of the points as stored. A file whose times cannot be reconciled
   /// with the trajectory has an alignment that leaves them outside it.
   std::vector<TimeAlignment> alignments;
-  /// Leave out points that the trajectory does not cover, and points without a time.
+  /// Exclude points that the trajectory does not cover, and points without a time.
   bool needed = true;
 };
 
-/** \brief Assigns each point of a set of files to a strip, or gives the reason why it is left out.
+/** \brief Assigns each point of a set of files to a strip, or gives the reason why it is excluded.
  *
  * Without StripChoice::split, strips are those that the inputs name, else those of StripNaming.
  * With it, points of one point source id in all files are divided into stretches by splitTrack():
@@ -45,9 +45,9 @@ struct FlownTimes {
  * StripChoice::divide_lines the same is done with single strips, whose names choose all of their
  * lines.
  *
- * Left out are strips that were not chosen, points between lines (with split), points of GPS time 0
+ * Excluded are strips that were not chosen, points between lines (with split), points of GPS time 0
  * in a file that has times, and, where a trajectory is needed, points that it does not cover; a
- * strip of which it covers less than kLeastCovered is left out as a whole.
+ * strip of which it covers less than kLeastCovered is excluded as a whole.
  */
 class StripAssignment {
  private:
@@ -79,16 +79,16 @@ class StripAssignment {
   /// as a whole).
   const std::vector<std::uint64_t>& expectedPoints() const { return expected_; }
 
-  /// Label of a point: a strip in use, or the reason for which it is left out.
+  /// Label of a point: a strip in use, or the reason for which it is excluded.
   struct Label {
     std::string strip;
-    int index = -1;  ///< among names(); -1: left out
+    int index = -1;  ///< among names(); -1: excluded
     ExclusionReason reason = ExclusionReason::excluded;
   };
   const std::vector<Label>& labels() const { return labels_; }
   /// The strips in use that may have points of that id in that file, as indices into names().
   std::vector<int> stripsOf(std::size_t file, std::uint16_t id) const;
-  /// The points that were left out, from the number of points of each label.
+  /// The points that were excluded, from the number of points of each label.
   std::vector<ExcludedPoints> excludedPoints(
       const std::vector<std::uint64_t>& points_of_label) const;
 

@@ -10,7 +10,7 @@ namespace pcl_als {
 /// Choice of the strips to be used.
 struct StripChoice {
   std::vector<std::string> only;     ///< names of the strips that are used; empty: all
-  std::vector<std::string> without;  ///< names of strips to leave out
+  std::vector<std::string> without;  ///< names of strips to exclude
   bool split = false;                ///< cut into flight lines by splitTrack()
   /// Without split: cut strips that are certainly several flight lines (leadBack()), as they are
   /// compared with others and not with themselves.

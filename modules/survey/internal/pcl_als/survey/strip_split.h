@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/survey/swath_track.h>
 #include <pcl_als/trajectory/trajectory.h>
 

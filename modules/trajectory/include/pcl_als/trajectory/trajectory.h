@@ -88,7 +88,7 @@ class Trajectory {
     /// Not with use_attitude or nominal_attitude.
     std::function<PitchAndCrab(double time)> body_attitude;
     ScanPlanes scan_planes;  ///< of a scanner with several
-    /// Leave out single samples and short runs that contradict their neighbours
+    /// Exclude single samples and short runs that contradict their neighbours
     /// (screenTrajectory()). False: the samples were screened already.
     bool screen_samples = true;
   };
@@ -99,8 +99,8 @@ class Trajectory {
 
   explicit Trajectory(std::vector<TrajectorySample> samples)
       : Trajectory(std::move(samples), Options()) {}
-  /// Leaves out samples that contradict their neighbours, sorts by time and merges samples of equal
-  /// time (at most 1 m apart: their mean). InputError for outliers that cannot be left out, fewer
+  /// Excludes samples that contradict their neighbours, sorts by time and merges samples of equal
+  /// time (at most 1 m apart: their mean). InputError for outliers that cannot be excluded, fewer
   /// than two distinct times, a time or position that is not finite, samples of one time that are
   /// further apart, or a trajectory that does not move in plan; UsageError for impossible options.
   Trajectory(std::vector<TrajectorySample> samples, const Options& options);
@@ -158,7 +158,7 @@ class Trajectory {
     Rotation rotation;
   };
 
-  void leaveOutOutliers(std::vector<TrajectorySample>& samples);
+  void excludeOutliers(std::vector<TrajectorySample>& samples);
   void findGaps(const std::vector<TrajectorySample>& samples);
   void fitDirections(const std::vector<TrajectorySample>& samples);
   void takeAttitude(const std::vector<TrajectorySample>& samples);

@@ -64,7 +64,7 @@ class HeadingCheck {
 };
 
 /// The check of the samples of a trajectory at which the sensor moves; samples without a heading
-/// are left out.
+/// are excluded.
 HeadingCheck headingCheck(const std::vector<TrajectorySample>& samples);
 
 }  // namespace pcl_als

@@ -25,7 +25,7 @@ namespace pcl_als {
  *
  * s_r, s_a, s_p: range, direction and short-term position (ErrorLevels). s_f = footprint r tan
  * theta: on a surface with an angle of incidence theta the place within the footprint that the
- * range belongs to changes the range; without a known surface this term is left out, and tan theta
+ * range belongs to changes the range; without a known surface this term is omitted, and tan theta
  * is at most kSteepest. Error sources (ErrorSource) are taken as known. Without control, the height
  * of the block as a whole is not determined and not part of the covariance.
  *

@@ -82,7 +82,7 @@ class ScannerDetection {
     double last_time = 0.0, last_across = 0.0;
   };
 
-  /// By number.
+  /// The channels by their number.
   const std::map<std::uint8_t, Channel>& channels() const { return channels_; }
 
  private:

@@ -79,7 +79,7 @@ class TrajectoryPlausibility {
   void putStrip(int strip, ByteWriter& out) const;
   void getStrip(int strip, ByteReader& in);
   /// Excludes a strip that is not used from findings().
-  void leaveOut(int strip) { strips_[static_cast<std::size_t>(strip)].used = false; }
+  void exclude(int strip) { strips_[static_cast<std::size_t>(strip)].used = false; }
 
   /// Mean height of the trajectory above a strip's points, metres; 0 where no point lies below it.
   double meanHeight(int strip) const {

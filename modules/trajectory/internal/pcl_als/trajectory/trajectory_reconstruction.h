@@ -30,7 +30,7 @@ struct ReconstructedPath {
   TimeRange times;      ///< of its points, seconds
   double points = 0.0;  ///< with a time
   /// Whether positions are determined to kLargestShare of the height above ground, and for which
-  /// share of the time; samples are left out elsewhere.
+  /// share of the time; samples are excluded elsewhere.
   bool found = false;
   double determined = 0.0;
   std::string reason;  ///< why it is not found; empty otherwise
@@ -38,7 +38,7 @@ struct ReconstructedPath {
   Warnings warnings;  ///< findings and assumptions about the points
 
   PathEvidence::Counts counts;
-  std::size_t rays = 0, rejected = 0;  ///< rays in the adjustment; those of them left out
+  std::size_t rays = 0, rejected = 0;  ///< rays in the adjustment; those of them excluded
   double separation = 0.0;             ///< metres, median of the rays between their returns
   double height = 0.0;                 ///< metres above ground, mean
   /// Standard deviations, metres: of a return across its ray, and of a ray at the sensor apart from

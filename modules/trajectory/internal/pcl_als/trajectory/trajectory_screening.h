@@ -24,7 +24,7 @@ struct OutlierRun {
 
 /** \brief Samples of a trajectory that contradict their neighbours.
  *
- * The result of screenTrajectory(). Single samples and short runs can be left out, because the path
+ * The result of screenTrajectory(). Single samples and short runs can be excluded, because the path
  * and the attitude between their neighbours follow from these. Longer runs, and more outliers than
  * a hundredth of the samples, cannot: objection() says why.
  */
@@ -33,9 +33,9 @@ struct TrajectoryScreening {
   using SampleName = std::function<std::string(std::size_t)>;
 
   std::size_t samples = 0;            ///< all that were screened
-  std::vector<OutlierRun> outliers;   ///< in order of time; they can be left out
+  std::vector<OutlierRun> outliers;   ///< in order of time; they can be excluded
   std::vector<OutlierRun> long_runs;  ///< in order of time; too long to be bridged
-  /// The first sample of each step that no aircraft flies, with the outliers left out.
+  /// The first sample of each step that no aircraft flies, with the outliers excluded.
   std::vector<std::size_t> jumps;
   double farthest_jump = 0.0;  ///< metres
 
@@ -44,7 +44,7 @@ struct TrajectoryScreening {
   /// Why the trajectory cannot be used, with the first samples concerned and the hint; empty
   /// where it can.
   std::string objection(const SampleName& name = &sampleNumber) const;
-  /// "3 of 908 samples contradict their neighbours and are left out: line 12 (401500.125 s):
+  /// "3 of 908 samples contradict their neighbours and are excluded: line 12 (401500.125 s):
   /// 1203 m beside the path, …"; empty without outliers.
   std::string describe(const SampleName& name = &sampleNumber) const;
   /// Indices of the outliers, ascending.

@@ -26,7 +26,7 @@ enum class ExclusionReason {
 /// "excluded", "zero_time", …: the word of result files.
 std::string_view toString(ExclusionReason reason);
 
-/// Points of one strip that were left out for one reason.
+/// Points of one strip that were excluded for one reason.
 struct ExcludedPoints {
   std::string strip;
   ExclusionReason reason = ExclusionReason::excluded;
@@ -34,7 +34,7 @@ struct ExcludedPoints {
   std::uint64_t of = 0;  ///< points of the strip
 };
 
-/// "strip 66: 812 of 912345 points (0.09 %) left out: measured before the trajectory begins".
+/// "strip 66: 812 of 912345 points (0.09 %) excluded: measured before the trajectory begins".
 std::string describe(const ExcludedPoints& part);
 
 /// describe() of each part, in order.

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cstdio>
 
-#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/number_text.h>
 
 namespace pcl_als {
@@ -68,7 +68,7 @@ std::string describe(const ExcludedPoints& part) {
   char share[40];
   std::snprintf(share, sizeof share, " (%.3g %%)", percent);
   return "strip " + part.strip + ": " + std::to_string(part.points) + " of " +
-         counted(part.of, "point") + share + " left out: " + sentence(part.reason);
+         counted(part.of, "point") + share + " excluded: " + sentence(part.reason);
 }
 
 std::vector<std::string> describe(const std::vector<ExcludedPoints>& parts) {
