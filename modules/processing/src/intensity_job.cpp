@@ -219,6 +219,9 @@ IntensityResult correctIntensity(const std::vector<std::string>& paths,
   job.write(outputs);
   job.judge();
   result.outcome.seen = nullptr;
+  result.strips = run->strips();
+  for (std::size_t i = 0; i < result.strips.size(); ++i)
+    result.gains.push_back(run->gain(static_cast<int>(i)));
   result.run = std::move(run);
   return result;
 }

@@ -40,6 +40,7 @@ class SurveyPicture::Drawing {
   Drawing(const std::vector<std::string>& files, const SurveyPictureOptions& options,
           const ProgressCallback& callback);
   const OrthographicCamera& camera() const { return camera_; }
+  std::uint64_t shownPoints() const { return points_->shown(); }
   Canvas draw() const { return picture_.draw(*points_, coloring_); }
   ColoredPoints thinned() const;
 
@@ -148,6 +149,10 @@ SurveyPicture::~SurveyPicture() = default;
 
 const OrthographicCamera& SurveyPicture::camera() const {
   return drawing_->camera();
+}
+
+std::uint64_t SurveyPicture::shownPoints() const {
+  return drawing_->shownPoints();
 }
 
 Canvas SurveyPicture::draw() const {

@@ -14,7 +14,7 @@ int main(int argc, char** argv) try {
   options.title = "Strips";
   const pcl_als::SurveyPicture picture({argv + 2, argv + argc}, options);
   picture.draw().write(argv[1]);
-  std::cout << picture.points().shown() << " points shown\n";
+  std::cout << picture.shownPoints() << " points shown\n";
   return 0;
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';

@@ -22,8 +22,8 @@ int main(int argc, char** argv) try {
   options.settings.overlaps.estimate_gains = true;
   const auto flight = pcl_als::loadTrajectory(argv[1]).trajectory;
   const auto corrected = pcl_als::correctIntensity(strips, outputs, flight, options);
-  for (std::size_t i = 0; i < corrected.run->strips().size(); ++i)
-    std::cout << corrected.run->strips()[i] << ' ' << corrected.run->gain(i) << '\n';
+  for (std::size_t i = 0; i < corrected.strips.size(); ++i)
+    std::cout << corrected.strips[i] << ' ' << corrected.gains[i] << '\n';
   return corrected.unreliable.empty() ? 0 : 3;
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';

@@ -73,7 +73,10 @@ struct IntensityOutcome {
 };
 
 struct IntensityResult {
-  std::shared_ptr<const IntensityRun> run;  ///< strips, and model and gains as they were used
+  std::vector<std::string> strips;  ///< names of the strips in use
+  /// Divisor of the intensities of each strip: known gain, pulse energy and estimated gain.
+  std::vector<double> gains;
+  std::shared_ptr<const IntensityRun> run;  ///< the files, and the model as it was used
   IntensityOutcome outcome{0};
   std::optional<OverlapResult> overlaps;     ///< where strips were compared
   std::optional<ReferenceResult> reference;  ///< where there are targets

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,6 +67,7 @@ class SurveyPicture {
   ~SurveyPicture();
 
   const OrthographicCamera& camera() const;
+  std::uint64_t shownPoints() const;  ///< points that are not hidden by others
   Canvas draw() const;
   /// The points of the picture, evenly thinned to at most six million, for a view from all sides.
   ColoredPoints thinned() const;
