@@ -3,12 +3,11 @@
 #pragma once
 
 #include <map>
-#include <string>
 #include <vector>
 
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/waveform_job.h>
-#include <pcl_als/waveform/waveform_decomposer.h>
+#include <pcl_als/waveform/pulse_echoes.h>
 #include <pcl_als/waveform/waveform_reader.h>
 
 #include "waveform_pulses.h"
@@ -21,10 +20,7 @@ struct EchoFields {
   std::size_t record_length = 0;      ///< of the output
 
   explicit EchoFields(const LasFile& las);
-  /// Values of a point without an echo, or of an echo.
-  void storeNothing(std::byte* record) const;
-  void store(std::byte* record, const WaveformEcho& echo, double spacing_ns, double range_std,
-             bool is_new) const;
+  void store(const EchoAttributes& echo, std::byte* record) const;
 };
 
 /// What all threads share.
@@ -48,28 +44,19 @@ class EchoWriter {
   void append(const WaveformPulse& pulse, std::vector<std::byte>& records, WaveformCounts& counts);
 
  private:
-  struct Match {
-    std::vector<int> echo_of_point;  ///< -1: none
-    std::vector<int> point_of_echo;
-  };
-
-  WaveformDecomposer& decomposerOf(unsigned descriptor);
-  void match(const WaveformPulse& pulse);
   std::byte* addRecord(const std::byte* record, std::vector<std::byte>& records);
-  void storeEcho(int echo, const WaveformReference& own, bool is_new, std::byte* record) const;
+  void storeEcho(int echo, const WaveformReference& own, std::byte* record) const;
   void moveTo(double time_ps, const WaveformReference& own, std::uint64_t point,
               std::byte* record) const;
   void addEchoes(const WaveformPulse& pulse, std::vector<std::byte>& records);
-  int nearestPoint(const WaveformPulse& pulse, double time_ps) const;
   void renumber(const WaveformPulse& pulse, std::size_t begin,
                 std::vector<std::byte>& records) const;
 
   const EchoJob& job_;
   WaveformReader reader_;
-  std::map<unsigned, WaveformDecomposer> decomposers_;
+  PulseEchoes echoes_;
   Waveform waveform_;
-  Decomposition found_;
-  Match match_;
+  std::vector<double> locations_;  ///< of the returns of the pulse
 };
 
 }  // namespace pcl_als::detail

@@ -8,22 +8,13 @@
 #include <vector>
 
 #include <pcl_als/common/progress.h>
+#include <pcl_als/waveform/echo_settings.h>
 
 namespace pcl_als {
 
-/// Response of the system, and what is accepted as an echo.
-struct WaveformSettings {
-  /// Full width at half maximum of the response, nanoseconds; 0: from the waveforms
-  /// (PulseWidthEstimate).
-  double pulse_width_ns = 0.0;
-  /// Samples of the response in place of a Gaussian, with their spacing in nanoseconds.
-  std::vector<double> pulse;
-  double pulse_spacing_ns = 0.0;
-  double false_echoes = 3e-4;  ///< expected in a waveform, as DecompositionSettings
-  double ringing = 0.0;        ///< of the amplitude of the echo before, as DecompositionSettings
-  double ringing_reach_ns = 30.0;
-  double saturation = 0.0;  ///< digitizer counts; 0: the largest that the bits of a sample can hold
-  bool new_echoes = true;   ///< write the echoes that no return belongs to
+/// EchoSettings, and what is written.
+struct WaveformSettings : EchoSettings {
+  bool new_echoes = true;     ///< write the echoes that no return belongs to
   bool move_returns = false;  ///< move returns along their pulse to the time of their echo
   int threads = 0;            ///< 0: all cores; the result does not depend on it
 };
@@ -58,8 +49,8 @@ struct WaveformResult {
  *
  * Every point keeps its record. The extra bytes amplitude (digitizer counts), echo_width and
  * echo_width_std (full width at half maximum, nanoseconds), range_std (metres),
- * number_of_samples_saturated and new_echo are appended; without an echo they are NaN. A return
- * belongs to the nearest echo within the width of the response. Echoes that no return belongs to
+ * number_of_samples_saturated and new_echo are appended; without an echo they are NaN. Returns
+ * and echoes are paired by PulseEchoes. Echoes that no return belongs to
  * follow the points of their pulse: the record of the nearest return of the pulse, flagged as
  * synthetic, with new_echo 1, class 1, and with the position and the return point waveform location
  * of the echo. Return numbers are renumbered where echoes are added and all returns of the pulse
