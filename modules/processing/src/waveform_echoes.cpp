@@ -17,7 +17,16 @@ namespace {
 constexpr std::uint8_t kUnclassified = 1;
 constexpr std::size_t kReturnsAt = 14, kFlagsAt = 15;
 /// The order of the fields in the records.
-enum Field : std::size_t { kAmplitude, kWidth, kWidthStd, kRangeStd, kSaturated, kNew };
+enum Field : std::size_t {
+  kAmplitude,
+  kWidth,
+  kWidthStd,
+  kRangeStd,
+  kSaturated,
+  kNew,
+  kSection,
+  kCoefficient
+};
 
 LasExtraField fieldOf(const char* name, const char* description, LasExtraType type) {
   LasExtraField field;
@@ -55,7 +64,7 @@ std::int32_t rounded(double value, const std::string& name) {
 
 }  // namespace
 
-EchoFields::EchoFields(const LasFile& las) {
+EchoFields::EchoFields(const LasFile& las, const EchoCrossSections* cross_sections) {
   std::vector<LasExtraField> wanted{
       fieldOf("amplitude", "of the echo, digitizer counts", LasExtraType::f32),
       fieldOf("echo_width", "full width at half maximum, ns", LasExtraType::f32),
@@ -63,6 +72,15 @@ EchoFields::EchoFields(const LasFile& las) {
       fieldOf("range_std", "of the echo, m", LasExtraType::f32),
       fieldOf("number_of_samples_saturated", "of the echo", LasExtraType::u16),
       fieldOf("new_echo", "1: no return of the scanner", LasExtraType::u8)};
+  if (cross_sections != nullptr) {
+    const bool calibrated = cross_sections->result().calibrated;
+    wanted.push_back(fieldOf("cross_section",
+                             calibrated ? "of the echo, m2" : "relative, constant 1",
+                             LasExtraType::f32));
+    wanted.push_back(fieldOf("backscatter_coefficient",
+                             calibrated ? "over the area of the beam" : "relative, constant 1",
+                             LasExtraType::f32));
+  }
   for (LasExtraField& field : wanted) {
     const std::string name = field.name;
     for (int n = 2; hasField(las, field.name); ++n) field.name = name + '_' + std::to_string(n);
@@ -80,6 +98,12 @@ void EchoFields::store(const EchoAttributes& echo, std::byte* record) const {
   storeLas(record + fields[kNew].position, static_cast<std::uint8_t>(echo.new_echo ? 1 : 0));
 }
 
+void EchoFields::storeSection(float cross_section, float coefficient, std::byte* record) const {
+  if (fields.size() <= kCoefficient) return;
+  storeLas(record + fields[kSection].position, cross_section);
+  storeLas(record + fields[kCoefficient].position, coefficient);
+}
+
 EchoWriter::EchoWriter(const EchoJob& job)
     : job_(job), reader_(job.source), echoes_(job.responses, job.settings) {}
 
@@ -87,7 +111,9 @@ std::byte* EchoWriter::addRecord(const std::byte* record, std::vector<std::byte>
   const std::size_t at = records.size();
   records.resize(at + job_.fields.record_length);
   std::memcpy(&records[at], record, job_.las.header().record_length);
+  constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
   job_.fields.store(EchoAttributes(), &records[at]);
+  job_.fields.storeSection(kNothing, kNothing, &records[at]);
   return &records[at];
 }
 
@@ -96,6 +122,22 @@ void EchoWriter::storeEcho(int echo, const WaveformReference& own, std::byte* re
       job_.metres.scale.cwiseQuotient(job_.las.header().scale).cwiseAbs();
   const double speed = own.alongPulse().cwiseProduct(metres_per_unit).norm();
   job_.fields.store(echoes_.attributesOf(echo, speed), record);
+  if (!sections_.covered) return;
+  const auto at = static_cast<std::size_t>(echo);
+  job_.fields.storeSection(static_cast<float>(sections_.cross_section[at]),
+                           static_cast<float>(sections_.coefficient[at]), record);
+}
+
+void EchoWriter::findSections(const WaveformPulse& pulse, WaveformCounts& counts) {
+  if (job_.cross_sections == nullptr) return;
+  job_.cross_sections->evaluate(pulse, echoes_, node_, sections_);
+  if (pulse.repeated) return;
+  counts.uncovered += sections_.covered ? 0 : 1;
+  if (!sections_.covered) return;
+  for (const double transmission : sections_.transmission) {
+    counts.attenuated += transmission < 1.0 ? 1 : 0;
+    counts.opaque += transmission <= CrossSectionResult::kLeastTransmission ? 1 : 0;
+  }
 }
 
 /// Moves a record along its pulse to a time of its waveform.
@@ -166,6 +208,7 @@ void EchoWriter::append(const WaveformPulse& pulse, std::vector<std::byte>& reco
     locations_.push_back(
         WaveformReference::of(pulse.records + p * length, job_.las.layout()).location_ps);
   echoes_.decompose(waveform_, locations_);
+  findSections(pulse, counts);
   for (std::size_t p = 0; p < pulse.count; ++p) {
     const std::byte* given = pulse.records + p * length;
     std::byte* record = addRecord(given, records);

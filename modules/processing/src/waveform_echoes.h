@@ -10,6 +10,7 @@
 #include <pcl_als/waveform/pulse_echoes.h>
 #include <pcl_als/waveform/waveform_reader.h>
 
+#include "echo_cross_sections.h"
 #include "waveform_pulses.h"
 
 namespace pcl_als::detail {
@@ -19,8 +20,11 @@ struct EchoFields {
   std::vector<LasExtraField> fields;  ///< placed
   std::size_t record_length = 0;      ///< of the output
 
-  explicit EchoFields(const LasFile& las);
+  /// \param cross_sections null: without them
+  EchoFields(const LasFile& las, const EchoCrossSections* cross_sections);
   void store(const EchoAttributes& echo, std::byte* record) const;
+  /// NaN: unknown. Nothing without cross sections.
+  void storeSection(float cross_section, float coefficient, std::byte* record) const;
 };
 
 /// What all threads share.
@@ -30,7 +34,8 @@ struct EchoJob {
   const WaveformSettings& settings;
   std::map<unsigned, PulseResponse> responses;  ///< by descriptor
   EchoFields fields;
-  LasScaling metres;  ///< of the coordinates
+  LasScaling metres;                                  ///< of the coordinates
+  const EchoCrossSections* cross_sections = nullptr;  ///< null: none are computed
 };
 
 /** \brief Decomposes pulses into records of the output; one per thread.
@@ -48,6 +53,7 @@ class EchoWriter {
   void storeEcho(int echo, const WaveformReference& own, std::byte* record) const;
   void moveTo(double time_ps, const WaveformReference& own, std::uint64_t point,
               std::byte* record) const;
+  void findSections(const WaveformPulse& pulse, WaveformCounts& counts);
   void addEchoes(const WaveformPulse& pulse, std::vector<std::byte>& records);
   void renumber(const WaveformPulse& pulse, std::size_t begin,
                 std::vector<std::byte>& records) const;
@@ -57,6 +63,8 @@ class EchoWriter {
   PulseEchoes echoes_;
   Waveform waveform_;
   std::vector<double> locations_;  ///< of the returns of the pulse
+  PulseSections sections_;
+  std::size_t node_ = 0;  ///< on the trajectory
 };
 
 }  // namespace pcl_als::detail

@@ -10,6 +10,7 @@
 #include <pcl_als/las/las_selection.h>
 #include <pcl_als/processing/waveform_job.h>
 
+#include "echo_cross_sections.h"
 #include "waveform_echoes.h"
 #include "waveform_pulses.h"
 
@@ -96,6 +97,9 @@ void WaveformCounts::merge(const WaveformCounts& other) {
   saturated += other.saturated;
   single += other.single;
   sum_offset_ps += other.sum_offset_ps;
+  uncovered += other.uncovered;
+  attenuated += other.attenuated;
+  opaque += other.opaque;
 }
 
 WaveformResult decomposeWaveforms(const std::filesystem::path& input,
@@ -107,16 +111,30 @@ WaveformResult decomposeWaveforms(const std::filesystem::path& input,
   ProgressReport progress(callback);
   const LasFile las(input);
   const WaveformSource source(las);
+  std::optional<detail::EchoCrossSections> sections;
+  if (settings.cross_sections.trajectory) sections.emplace(las, settings.cross_sections);
   progress.begin("Estimating the pulse");
   WaveformResult result;
-  const detail::EchoJob job{
-      las,           source, settings, responsesOf(source, settings), detail::EchoFields(las),
-      las.toMetres()};
+  const detail::EchoCrossSections* const of_echoes = sections ? &*sections : nullptr;
+  const detail::EchoJob job{las,
+                            source,
+                            settings,
+                            responsesOf(source, settings),
+                            detail::EchoFields(las, of_echoes),
+                            las.toMetres(),
+                            of_echoes};
   for (const auto& [index, response] : job.responses)
     result.pulse_width_ns.emplace_back(index, response.width() * kFwhmOfGaussian *
                                                   source.descriptors().at(index).spacing_ps /
                                                   kPicosecondsPerNanosecond);
   progress.end(numberText(result.pulse_width_ns.front().second, 2) + " ns wide");
+  if (sections) {
+    progress.begin("Calibrating cross sections");
+    sections->calibrate(source, job.responses, settings);
+    result.cross_sections = sections->result();
+    progress.end("constant " + significantText(result.cross_sections->constant, 4) +
+                 (result.cross_sections->calibrated ? "" : " (relative)"));
+  }
   progress.begin("Decomposing waveforms");
   LasSelectionWriter writer(output, las, job.fields.fields, settings.threads);
   BlockDecomposition blocks(job, writer);
@@ -130,9 +148,37 @@ WaveformResult decomposeWaveforms(const std::filesystem::path& input,
   const WaveformCounts& c = result.counts;
   result.counts.unmatched = c.points - c.without_waveform - c.matched;
   result.remarks = writer.remarks();
+  if (result.cross_sections && result.cross_sections->reference)
+    for (const std::string& warning : result.cross_sections->reference->warnings)
+      result.remarks.push_back("warning: " + warning);
   progress.end(grouped(c.echoes) + " echoes in " + grouped(c.waveforms) + " waveforms");
   return result;
 }
+
+namespace {
+
+std::string describeSections(const CrossSectionResult& sections, const WaveformCounts& counts) {
+  std::string text = "cross sections: calibration constant " + shortText(sections.constant);
+  if (sections.calibrated)
+    text += " m2 / (count ns km4)";
+  else
+    text += ", they are relative";
+  if (sections.reference)
+    text += ", relative std " + significantText(sections.reference->relative_std, 2);
+  text += '\n';
+  if (sections.full_coefficient > 0.0)
+    text += "attenuation: a whole pulse has the backscatter coefficient " +
+            significantText(sections.full_coefficient, 4) + "; " + grouped(counts.attenuated) +
+            " echoes behind others corrected, " + grouped(counts.opaque) +
+            " of them for the least transmission of " +
+            shortText(CrossSectionResult::kLeastTransmission) + '\n';
+  if (counts.uncovered > 0)
+    text += grouped(counts.uncovered) +
+            " waveforms without a range from the trajectory have no cross sections\n";
+  return text;
+}
+
+}  // namespace
 
 std::string describe(const WaveformResult& result) {
   const WaveformCounts& c = result.counts;
@@ -148,6 +194,7 @@ std::string describe(const WaveformResult& result) {
   if (c.matched > 0)
     text +=
         "echoes are " + numberText(c.meanOffset(), 0) + " ps behind their returns in the mean\n";
+  if (result.cross_sections) text += describeSections(*result.cross_sections, c);
   return text;
 }
 

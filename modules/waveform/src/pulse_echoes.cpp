@@ -62,6 +62,11 @@ double PulseEchoes::timeOf(int echo) const {
   return at(echo).time * spacing_;
 }
 
+double PulseEchoes::energyOf(int echo) const {
+  const WaveformEcho& e = at(echo);
+  return e.amplitude * e.width * kFwhmOfGaussian * spacing_ / kPicosecondsPerNanosecond;
+}
+
 std::size_t PulseEchoes::nearestReturn(int echo) const {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();

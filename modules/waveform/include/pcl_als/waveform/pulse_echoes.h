@@ -47,6 +47,8 @@ class PulseEchoes {
   int returnOf(int echo) const { return return_of_echo_[static_cast<std::size_t>(echo)]; }
   /// Time of an echo, picoseconds from the first sample.
   double timeOf(int echo) const;
+  /// Energy of an echo: amplitude (digitizer counts) times full width at half maximum (ns).
+  double energyOf(int echo) const;
   /// The return that is nearest to an echo in time.
   std::size_t nearestReturn(int echo) const;
   /// Intensity of a new echo over that of its nearest return, in proportion to their amplitudes; 0
