@@ -42,9 +42,12 @@ void addGainOptions(CommandLine& line) {
   line.makeDependent("agc_gain", "agc_field");
   line.addInputFile("agc_gain",
                     "CSV value,gain: the gain at values of -agc_field, interpolated linearly");
+  line.addFlag("echo_energy",
+               "use the energies of echoes in place of intensities: extra bytes amplitude times "
+               "echo_width, as pcl_als_waveform writes them");
   line.addNumber("saturation",
                  "digital number at which intensity is saturated, in place of 255 where none is "
-                 "greater, else 65535",
+                 "greater, else 65535; energies of echoes have none",
                  {}, {1.0, 65535.0});
 }
 
@@ -146,6 +149,7 @@ IntensitySettings intensitySettings(const CommandLine& line, double extinction_p
     settings.gain_control = line.text("agc_field");
     settings.gain_steps = readGainSteps(line.text("agc_gain"));
   }
+  settings.echo_energy = line.has("echo_energy");
   if (line.has("saturation")) settings.saturation = line.number("saturation");
   settings.keep_uncovered = line.has("keep_uncovered");
   settings.strips = stripChoice(line);

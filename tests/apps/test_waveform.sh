@@ -63,6 +63,11 @@ printf 'x,y,reflectance,id\n900,0,0.3,far\n' >far.csv
 expect 2 "no reference target has" waveform in.las x.las -pulse_width 4.8 -trajectory flight.csv -targets far.csv
 expect 1 "-trajectory" waveform in.las x.las -pulse_width 4.8 -targets targets.csv
 
+# The energies of echoes in place of intensity.
+expect 0 "intensities are the energies of echoes" intensity sections.las energies.las -trajectory flight.csv -echo_energy \
+  -no_incidence -no_fields
+expect 2 "in.las: has no extra field amplitude" intensity in.las x.las -trajectory flight.csv -echo_energy
+
 # What has to be refused.
 expect 1 "-pulse_width" waveform in.las x.las -pulse_width 0
 expect 1 "-pulse" waveform in.las x.las -pulse_width 4 -pulse pulse.csv
