@@ -24,7 +24,8 @@ void addUncertaintyOptions(CommandLine& line) {
   line.addFlag(
       "uncertainty",
       "add extra bytes sigma_horizontal (in the plane, compare RMSE_H) and sigma_vertical: "
-      "standard deviation of every point, m (LAS, LAZ)");
+      "standard deviation of every point, m (LAS, LAZ); range_std of decomposed waveforms is "
+      "used where it exceeds the range error of the calibration");
   line.addOutputFile("uncertainty_raster",
                      "GeoTIFF of these standard deviations, root mean squares in cells",
                      {".tif", ".tiff"});

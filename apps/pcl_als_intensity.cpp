@@ -11,6 +11,7 @@
 #include <pcl_als/report/intensity_page.h>
 #include <pcl_als/report/intensity_report.h>
 
+#include "atmosphere_options.h"
 #include "command_line.h"
 #include "flight_options.h"
 #include "intensity_options.h"

@@ -3,15 +3,46 @@
 #include <iostream>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/pulse_io.h>
+#include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/waveform_job.h>
 
+#include "atmosphere_options.h"
 #include "command_line.h"
+#include "flight_options.h"
 
 namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
+
+/// What cross sections need. Without a trajectory there are none.
+void addCrossSectionOptions(CommandLine& line) {
+  app::addFlightOptions(line, "for cross sections");
+  app::addForceOption(line);
+  std::vector<std::string> names = app::addAtmosphereOptions(line);
+  line.addNumber("beam_divergence", "divergence of the beam, full angle", 0.3,
+                 {0.001, 100.0, "mrad"});
+  line.addNumber("calibration_constant",
+                 "m2 per count, ns and km4, as an earlier run with -targets states it (default: 1, "
+                 "cross sections are relative)",
+                 std::nullopt, {1e-30, 1e30});
+  line.addInputFile("targets",
+                    "level reference targets, CSV x,y,reflectance[,id][,sigma]: calibrate cross "
+                    "sections");
+  app::addUnitsOption(line, "targets", "-targets");
+  line.exclude({"targets", "calibration_constant"});
+  line.addNumber("target_radius", "radius within which points belong to a target", 1.0,
+                 {0.01, 1000.0, "m"});
+  line.addFlag("correct_attenuation",
+               "divide cross sections of echoes behind others of their pulse by the transmission "
+               "that these leave");
+  names.insert(names.end(),
+               {"beam_divergence", "calibration_constant", "targets", "correct_attenuation"});
+  for (const std::string& name : names) line.makeDependent(name, "trajectory");
+  line.makeDependent("target_radius", "targets");
+}
 
 CommandLine commandLine() {
   CommandLine line(
@@ -20,8 +51,9 @@ CommandLine commandLine() {
       "file or in a .wdp beside it) into echoes, and writes all of them as points.\n"
       "Extra bytes: amplitude (digitizer counts), echo_width and echo_width_std (full width at "
       "half maximum, ns), range_std (m), number_of_samples_saturated, new_echo (1: an echo that "
-      "the "
-      "scanner did not return; it is flagged as synthetic). Everything else of the records is "
+      "the scanner did not return; it is flagged as synthetic), and with -trajectory "
+      "cross_section (m2) and backscatter_coefficient by the radar equation (Wagner 2010). "
+      "Everything else of the records is "
       "kept; return numbers follow the times of the echoes where some are added.",
       "IN OUT [options]", "pcl_als_waveform strip1.las echoes.laz -pulse_width 4.8");
   line.setArguments({{"", 1, 1, {".las", ".laz"}}});
@@ -49,7 +81,31 @@ CommandLine commandLine() {
   line.addFlag("only_returns", "write no new echoes").in(app::Group::output);
   line.addFlag("move_returns", "move returns along their pulse to their echoes")
       .in(app::Group::output);
+  addCrossSectionOptions(line);
   return line;
+}
+
+CrossSectionSettings crossSections(const CommandLine& line) {
+  CrossSectionSettings settings;
+  app::checkFlightOptions(line);
+  if (!line.has("trajectory")) return settings;
+  const std::vector<std::string>& files = line.inputs();
+  const PointReference reference = commonReference(files);
+  app::remarks(line, reference.remarks);
+  settings.trajectory = app::loadTrajectory(line, reference.crs, 0.0, AttitudeUse::ignore, files);
+  const ExtinctionChoice extinction = app::extinctionChoice(line);
+  app::remark(line, extinction.remark);
+  settings.gps_week = app::gpsWeek(line);
+  settings.model.extinction_per_km = extinction.per_km;
+  settings.model.beam_divergence = line.number("beam_divergence");
+  if (line.has("calibration_constant"))
+    settings.model.constant = line.number("calibration_constant");
+  if (line.has("targets"))
+    settings.targets = readReferenceTargets(line.text("targets"), app::unitOption(line, "targets"));
+  settings.target_radius = line.number("target_radius");
+  settings.correct_attenuation = line.has("correct_attenuation");
+  settings.force = line.has("force");
+  return settings;
 }
 
 WaveformSettings settingsOf(const CommandLine& line) {
@@ -67,6 +123,7 @@ WaveformSettings settingsOf(const CommandLine& line) {
   settings.new_echoes = !line.has("only_returns");
   settings.move_returns = line.has("move_returns");
   settings.threads = line.threads();
+  settings.cross_sections = crossSections(line);
   return settings;
 }
 

@@ -7,6 +7,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
 
+#include "atmosphere_options.h"
 #include "flight_options.h"
 #include "report_options.h"
 #include "strip_options.h"
@@ -26,19 +27,6 @@ void addModelOptions(CommandLine& line) {
                  model.largest_incidence, {1.0, 89.0, "degrees"});
   line.addFlag("no_range", "leave the range term out");
   line.addFlag("no_incidence", "leave the incidence term out");
-  line.addFlag("no_atmosphere", "leave the atmosphere out");
-}
-
-void addAirOptions(CommandLine& line) {
-  const Atmosphere air;
-  line.addNumber("visibility", "visibility (models of Kruse and Kim)", air.visibility_km,
-                 {0.01, 500.0, "km"});
-  line.addNumber("temperature", "air temperature", air.temperature_c, {-60.0, 60.0, "C"});
-  line.addNumber("pressure", "air pressure", air.pressure_kpa, {20.0, 120.0, "kPa"});
-  line.addNumber("humidity", "relative humidity", air.relative_humidity, {0.0, 100.0, "%"});
-  line.addNumber("wavelength", "wavelength of the laser", air.wavelength_nm, {500.0, 1650.0, "nm"});
-  line.addNumber("attenuation", "attenuation, one way, instead of the weather", {},
-                 {0.0, 1000.0, "dB/km"});
 }
 
 void addGainOptions(CommandLine& line) {
@@ -54,9 +42,12 @@ void addGainOptions(CommandLine& line) {
   line.makeDependent("agc_gain", "agc_field");
   line.addInputFile("agc_gain",
                     "CSV value,gain: the gain at values of -agc_field, interpolated linearly");
+  line.addFlag("echo_energy",
+               "use the energies of echoes in place of intensities: extra bytes amplitude times "
+               "echo_width, as pcl_als_waveform writes them");
   line.addNumber("saturation",
                  "digital number at which intensity is saturated, in place of 255 where none is "
-                 "greater, else 65535",
+                 "greater, else 65535; energies of echoes have none",
                  {}, {1.0, 65535.0});
 }
 
@@ -158,6 +149,7 @@ IntensitySettings intensitySettings(const CommandLine& line, double extinction_p
     settings.gain_control = line.text("agc_field");
     settings.gain_steps = readGainSteps(line.text("agc_gain"));
   }
+  settings.echo_energy = line.has("echo_energy");
   if (line.has("saturation")) settings.saturation = line.number("saturation");
   settings.keep_uncovered = line.has("keep_uncovered");
   settings.strips = stripChoice(line);
@@ -183,34 +175,11 @@ IntensityOutput intensityOutput(const CommandLine& line) {
 
 void addIntensityOptions(CommandLine& line) {
   addModelOptions(line);
-  addAirOptions(line);
+  addAtmosphereOptions(line);
   addGainOptions(line);
   addSurfaceOptions(line);
   addOverlapOptions(line);
   addOutputOptions(line);
-}
-
-ExtinctionChoice extinctionChoice(const CommandLine& line) {
-  ExtinctionChoice choice;
-  if (line.has("no_atmosphere")) {
-    choice.remark = "atmosphere: not applied";
-    return choice;
-  }
-  if (line.has("attenuation")) {
-    choice.per_km = extinctionFromDecibel(line.number("attenuation"));
-  } else {
-    Atmosphere air;
-    air.visibility_km = line.number("visibility");
-    air.temperature_c = line.number("temperature");
-    air.pressure_kpa = line.number("pressure");
-    air.relative_humidity = line.number("humidity");
-    air.wavelength_nm = line.number("wavelength");
-    choice.air = air;
-    choice.parts = extinctionOf(air);
-    choice.per_km = choice.parts.total();
-  }
-  choice.remark = extinctionText(choice);
-  return choice;
 }
 
 IntensityOptions intensityOptions(const CommandLine& line, double extinction_per_km) {

@@ -13,7 +13,6 @@ namespace pcl_als::app {
 void addIntensityOptions(CommandLine& line);
 
 /// UsageError naming the option for values out of range.
-ExtinctionChoice extinctionChoice(const CommandLine& line);
 IntensityOptions intensityOptions(const CommandLine& line, double extinction_per_km);
 
 }  // namespace pcl_als::app

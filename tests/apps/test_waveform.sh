@@ -51,6 +51,23 @@ checks=$((checks + 1))
 awk 'BEGIN { print "time_ns,value"; for (t = -10; t <= 10; t += 0.5) print t "," exp(-t * t / 8.17) }' >pulse.csv
 expect 0 "200 of returns, 40 new" waveform in.las sampled.las -pulse pulse.csv
 
+# Cross sections: the sensor is 1000 m above the first sample along the pulse.
+awk 'BEGIN { print "time,x,y,z"; for (i = -100; i <= 100; ++i)
+  printf "%.2f,%.3f,%.3f,%.3f\n", 230038.25 + 0.1 * i, -287.348, 6 * i, 1457.826 }' >flight.csv
+expect 0 "calibration constant 1, they are relative" waveform in.las relative.las -pulse_width 4.8 -trajectory flight.csv
+printf 'x,y,reflectance,id\n1.3,0,0.3,asphalt\n' >targets.csv
+whole="a whole pulse has the backscatter coefficient 1.1"
+expect 0 "m2 / (count ns km4), relative std*$whole*40 echoes" waveform in.las sections.las -pulse_width 4.8 -trajectory flight.csv \
+  -targets targets.csv -correct_attenuation
+printf 'x,y,reflectance,id\n900,0,0.3,far\n' >far.csv
+expect 2 "no reference target has" waveform in.las x.las -pulse_width 4.8 -trajectory flight.csv -targets far.csv
+expect 1 "-trajectory" waveform in.las x.las -pulse_width 4.8 -targets targets.csv
+
+# The energies of echoes in place of intensity.
+expect 0 "intensities are the energies of echoes" intensity sections.las energies.las -trajectory flight.csv -echo_energy \
+  -no_incidence -no_fields
+expect 2 "in.las: has no extra field amplitude" intensity in.las x.las -trajectory flight.csv -echo_energy
+
 # What has to be refused.
 expect 1 "-pulse_width" waveform in.las x.las -pulse_width 0
 expect 1 "-pulse" waveform in.las x.las -pulse_width 4 -pulse pulse.csv

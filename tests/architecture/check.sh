@@ -20,7 +20,7 @@ declare -A may=(
   [survey]="common io trajectory" [tin]="common" [registration]="common adjustment tin"
   [calibration]="common adjustment io trajectory survey tin registration" [radiometry]="common adjustment trajectory tin"
   [photogrammetry]="common adjustment tin" [waveform]="common adjustment las io"
-  [filters]="common las trajectory tin radiometry"
+  [filters]="common las trajectory tin radiometry waveform"
   [classification]="common tin" [quality]="common adjustment tin registration trajectory"
   [history]="common io"
   [processing]="common io trajectory survey registration calibration radiometry filters quality classification photogrammetry drawing simulation waveform"

@@ -53,6 +53,22 @@ TEST(PointUncertainty, NoiseIsAlongAndAcrossThePulse) {
   EXPECT_NEAR(sigma.vertical, std::hypot(0.02, 0.005), 1e-9);
 }
 
+TEST(PointUncertainty, RangesOfEchoesAreUsedWhereTheyAreLessCertain) {
+  CalibrationResult calibration = exact();
+  calibration.error_levels->range = 0.02;
+  const PointUncertainty uncertainty(calibration, northward(), {false, {}});
+  PointUncertainty::Cursor cursor;
+  Eigen::Matrix3d covariance;
+  const auto verticalOf = [&](double range_std) {
+    EXPECT_TRUE(
+        uncertainty.covarianceAt(10.0, kNadir, kUnknownSurface, cursor, covariance, 0, range_std));
+    return PointUncertainty::sigmaOf(covariance).vertical;
+  };
+  EXPECT_NEAR(verticalOf(0.05), 0.05, 1e-12);
+  EXPECT_NEAR(verticalOf(0.01), 0.02, 1e-12);
+  EXPECT_EQ(verticalOf(kNone), 0.02);
+}
+
 TEST(PointUncertainty, FootprintActsOnSlopes) {
   CalibrationResult calibration = exact();
   calibration.error_levels->footprint = 0.075e-3;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr const char* kHorizontal = "sigma_horizontal";
 constexpr const char* kVertical = "sigma_vertical";
+constexpr const char* kRangeStd = "range_std";  ///< of decomposeWaveforms()
 
 LasExtraField fieldOf(const char* name, const char* description) {
   LasExtraField field;
@@ -109,6 +110,13 @@ void FileUncertainty::placeFields(const LasFile& file) {
   };
   horizontal_at_ = positionOf(kHorizontal);
   vertical_at_ = positionOf(kVertical);
+  const LasExtraField* range_std = find(file.extraFields(), kRangeStd);
+  if (range_std != nullptr && isPlain(*range_std)) range_std_at_ = range_std->position;
+}
+
+double FileUncertainty::rangeStdOf(const std::byte* record) const {
+  if (!range_std_at_) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(loadLas<float>(record + *range_std_at_));
 }
 
 std::vector<Eigen::Vector3f> FileUncertainty::normalsOf(const LasRecordBlock& block) const {
@@ -164,7 +172,7 @@ void FileUncertainty::store(const LasRecordBlock& block,
     points[i] = {position.x(), position.y(), kNone, kNone};
     if (correction_.knowsAttitude(time) &&
         uncertainty_.covarianceAt(time, position, normals[i].cast<double>(), cursor, covariance,
-                                  systemOf(record))) {
+                                  systemOf(record), rangeStdOf(record))) {
       const PointUncertainty::Sigma sigma = PointUncertainty::sigmaOf(covariance);
       points[i].horizontal = static_cast<float>(sigma.horizontal);
       points[i].vertical = static_cast<float>(sigma.vertical);

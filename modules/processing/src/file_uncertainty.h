@@ -45,6 +45,8 @@ class FileUncertainty {
  private:
   void chooseRadius();
   void placeFields(const LasFile& file);
+  /// Of the echo of a record; NaN: not known.
+  double rangeStdOf(const std::byte* record) const;
   std::size_t systemOf(const std::byte* record) const;
   void count(const std::vector<PointDeviation>& points,
              const std::vector<Eigen::Vector3f>& normals);
@@ -55,6 +57,7 @@ class FileUncertainty {
   double radius_ = 2.0;  ///< metres, of the surfaces
   LasExtension extension_;
   std::size_t horizontal_at_ = 0, vertical_at_ = 0;
+  std::optional<std::size_t> range_std_at_;  ///< of a file with decomposed waveforms
   const IntegerBiasCorrection::Layout layout_;
   const SystemCorrection correction_;
   PointUncertainty uncertainty_;

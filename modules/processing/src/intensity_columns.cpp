@@ -71,7 +71,7 @@ struct RangeOnlyCorrection::Tile {
 
 bool RangeOnlyCorrection::serves(const IntensitySettings& settings, const IntensityOutput& output) {
   return !settings.find_surfaces && !settings.statistics && settings.gain_control.empty() &&
-         !output.extra_fields;
+         !settings.echo_energy && !output.extra_fields;
 }
 
 RangeOnlyCorrection::RangeOnlyCorrection(const IntensityRun& run, std::size_t file, double scale,

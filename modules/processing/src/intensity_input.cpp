@@ -55,6 +55,8 @@ class LasInput : public IntensityInput {
     survey_.sources.info = file_.info();
     survey_.has_time = layout_.gps_time >= 0;
     findGainControl(options.gain_control);
+    if (options.echo_energy)
+      amplitude_ = echoField("amplitude"), echo_width_ = echoField("echo_width");
     look(file_.header().compressed ? 1 : options.threads);
   }
 
@@ -103,6 +105,22 @@ class LasInput : public IntensityInput {
                      (names.empty() ? "; it has none at all" : "; it has" + names));
   }
 
+  /// Position of a field of echoes in the records.
+  std::ptrdiff_t echoField(const char* name) const {
+    const LasExtraField* field = findLasExtraField(file_.extraFields(), name, path_);
+    if (field == nullptr || field->type != LasExtraType::f32)
+      throw InputError(path_ + ": has no extra field " + name +
+                       " of echoes; decompose its waveforms first");
+    return static_cast<std::ptrdiff_t>(field->position);
+  }
+
+  /// Intensity, or the energy of the echo; 0 without one.
+  float intensityOf(const std::byte* record) const {
+    if (amplitude_ < 0) return LasRecordLayout::intensityOf(record);
+    const float energy = loadLas<float>(record + amplitude_) * loadLas<float>(record + echo_width_);
+    return energy > 0.0F ? energy : 0.0F;
+  }
+
   Eigen::Vector3d positionOf(const std::byte* record) const {
     return LasRecordLayout::positionOf(record, scale_, offset_);
   }
@@ -114,7 +132,7 @@ class LasInput : public IntensityInput {
     IntensityPoint point;
     point.position = positionOf(record);
     point.time = layout_.timeOf(record);
-    point.intensity = LasRecordLayout::intensityOf(record);
+    point.intensity = intensityOf(record);
     point.source = layout_.sourceOf(record);
     point.return_number = static_cast<std::uint8_t>(layout_.returnNumberOf(record));
     point.number_of_returns = static_cast<std::uint8_t>(layout_.numberOfReturnsOf(record));
@@ -189,6 +207,7 @@ class LasInput : public IntensityInput {
   std::size_t lookAtRun(const std::byte* records, std::size_t count, BlockBox& box,
                         PointRun& run) const {
     const std::uint16_t source = layout_.sourceOf(records);
+    const std::byte* const first = records;
     auto least = LasRecordLayout::lanesOf(records), most = least;
     // In locals: a compiler must expect that bytes of records are those of the result.
     std::uint16_t largest = 0;
@@ -214,10 +233,21 @@ class LasInput : public IntensityInput {
     run.zero_time = zero_times > 0;
     run.times = times;
     run.largest = largest;
+    if (amplitude_ >= 0) lookAtEnergies(first, run);
     run.minimum = metres({least[0], least[1], least[2]});
     run.maximum = metres({most[0], most[1], most[2]});
     box = {0, source, least[0], least[1], most[0], most[1]};
     return i;
+  }
+
+  void lookAtEnergies(const std::byte* records, PointRun& run) const {
+    run.zeros = 0;
+    run.largest = 0.0;
+    for (std::uint64_t i = 0; i < run.points; ++i) {
+      const float energy = intensityOf(records + i * length_);
+      run.zeros += energy == 0.0F ? 1 : 0;
+      run.largest = std::max(run.largest, static_cast<double>(energy));
+    }
   }
 
   /// Blocks outside the window with points within the margin of a block of the same strip in it.
@@ -278,7 +308,8 @@ class LasInput : public IntensityInput {
   const LasRecordLayout layout_;  ///< of the file, as are the next three
   const std::size_t length_;
   const Eigen::Vector3d scale_, offset_;
-  const LasExtraField* gain_control_ = nullptr;  ///< of file_
+  const LasExtraField* gain_control_ = nullptr;      ///< of file_
+  std::ptrdiff_t amplitude_ = -1, echo_width_ = -1;  ///< in a record; -1: not used
   std::vector<BlockBox> boxes_;
   std::vector<std::size_t> first_box_;  ///< of each window, and the end
 };
@@ -289,6 +320,8 @@ std::unique_ptr<IntensityInput> IntensityInput::open(const std::string& path,
                                                      const Options& options) {
   requireCopyable(path);
   const std::string extension = lowerExtension(path);
+  if (extension == ".pcd" && options.echo_energy)
+    throw InputError(path + ": energies of echoes are read from LAS and LAZ files only");
   if (extension == ".pcd") return openIntensityPcd(path, options);
   if (extension == ".las" || extension == ".laz") return std::make_unique<LasInput>(path, options);
   throw InputError(path + ": is no point file by its name (.las, .laz or .pcd)");

@@ -52,6 +52,9 @@ class IntensityJob {
 };
 
 void IntensityJob::useStored(const StoredRadiometry& stored) {
+  if (stored.echo_energy != run_.settings().echo_energy)
+    throw InputError(std::string("the radiometry of an earlier run is that of ") +
+                     (stored.echo_energy ? "energies of echoes" : "intensities"));
   std::vector<double> gains;
   for (const std::string& strip : run_.strips()) {
     const auto at = stored.gains.find(strip);

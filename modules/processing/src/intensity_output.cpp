@@ -228,6 +228,7 @@ std::string correctedBy(const IntensityRun& run) {
       !settings.gains.empty() || !settings.pulse_rates.empty() || !settings.gain_steps.empty() ||
       std::any_of(estimated.begin(), estimated.end(), [](double gain) { return gain != 1.0; });
   if (gains) text += text.empty() ? "gains" : ", gains";
+  if (settings.echo_energy) text += text.empty() ? "echo energy" : ", echo energy";
   return text;
 }
 
@@ -303,7 +304,9 @@ void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::
       const CorrectedPoint point = correctedPoint(run, found, i);
       const double scaled =
           found.radiometry[i].corrected() ? output.scale * point.intensity : point.intensity;
-      stored[i] = rounded(scaled);
+      // With energies of echoes the intensity of the record is another value than the given one.
+      stored[i] =
+          found.radiometry[i].corrected() ? rounded(scaled) : LasRecordLayout::intensityOf(record);
       places.store(record, point);
       LasRecordLayout::storeIntensity(stored[i], record);
       counters(run, found, i, point, scaled, part);

@@ -45,6 +45,7 @@ void putSurvey(ByteWriter& out, const IntensitySurvey& survey) {
 void IntensityRun::shareInputs(const std::vector<std::string>& paths) {
   IntensityInput::Options options;
   options.gain_control = settings_.gain_control;
+  options.echo_energy = settings_.echo_energy;
   options.threads = settings_.threads;
   if (!settings_.find_surfaces) options.window = IntensityInput::kSmallWindow;
   inputs_.resize(paths.size());

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <pcl_als/common/errors.h>
@@ -51,8 +52,12 @@ void IntensityRun::openFiles(const std::vector<std::string>& paths) {
     largest = std::max(largest, survey.largest);
   }
   saturation_ = settings_.saturation > 0.0 ? settings_.saturation
+                : settings_.echo_energy    ? std::numeric_limits<double>::infinity()
                 : largest <= 255.0         ? 255.0
                                            : 65535.0;
+  if (settings_.echo_energy)
+    remarks_.push_back(
+        "intensities are the energies of echoes: amplitude times echo_width, counts ns");
 }
 
 void IntensityRun::arrangeStrips(const std::vector<std::string>& paths) {

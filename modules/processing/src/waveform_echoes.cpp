@@ -14,11 +14,19 @@
 namespace pcl_als::detail {
 namespace {
 
-constexpr double kPicosecondsPerNanosecond = 1000.0;
 constexpr std::uint8_t kUnclassified = 1;
 constexpr std::size_t kReturnsAt = 14, kFlagsAt = 15;
 /// The order of the fields in the records.
-enum Field : std::size_t { kAmplitude, kWidth, kWidthStd, kRangeStd, kSaturated, kNew };
+enum Field : std::size_t {
+  kAmplitude,
+  kWidth,
+  kWidthStd,
+  kRangeStd,
+  kSaturated,
+  kNew,
+  kSection,
+  kCoefficient
+};
 
 LasExtraField fieldOf(const char* name, const char* description, LasExtraType type) {
   LasExtraField field;
@@ -56,7 +64,7 @@ std::int32_t rounded(double value, const std::string& name) {
 
 }  // namespace
 
-EchoFields::EchoFields(const LasFile& las) {
+EchoFields::EchoFields(const LasFile& las, const EchoCrossSections* cross_sections) {
   std::vector<LasExtraField> wanted{
       fieldOf("amplitude", "of the echo, digitizer counts", LasExtraType::f32),
       fieldOf("echo_width", "full width at half maximum, ns", LasExtraType::f32),
@@ -64,6 +72,15 @@ EchoFields::EchoFields(const LasFile& las) {
       fieldOf("range_std", "of the echo, m", LasExtraType::f32),
       fieldOf("number_of_samples_saturated", "of the echo", LasExtraType::u16),
       fieldOf("new_echo", "1: no return of the scanner", LasExtraType::u8)};
+  if (cross_sections != nullptr) {
+    const bool calibrated = cross_sections->result().calibrated;
+    wanted.push_back(fieldOf("cross_section",
+                             calibrated ? "of the echo, m2" : "relative, constant 1",
+                             LasExtraType::f32));
+    wanted.push_back(fieldOf("backscatter_coefficient",
+                             calibrated ? "over the area of the beam" : "relative, constant 1",
+                             LasExtraType::f32));
+  }
   for (LasExtraField& field : wanted) {
     const std::string name = field.name;
     for (int n = 2; hasField(las, field.name); ++n) field.name = name + '_' + std::to_string(n);
@@ -72,92 +89,55 @@ EchoFields::EchoFields(const LasFile& las) {
   record_length = fields.back().position + fields.back().size;
 }
 
-void EchoFields::storeNothing(std::byte* record) const {
-  constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-  for (const Field field : {kAmplitude, kWidth, kWidthStd, kRangeStd})
-    storeLas(record + fields[field].position, kNothing);
-  storeLas(record + fields[kSaturated].position, std::uint16_t{0});
-  storeLas(record + fields[kNew].position, std::uint8_t{0});
+void EchoFields::store(const EchoAttributes& echo, std::byte* record) const {
+  storeLas(record + fields[kAmplitude].position, echo.amplitude);
+  storeLas(record + fields[kWidth].position, echo.echo_width);
+  storeLas(record + fields[kWidthStd].position, echo.echo_width_std);
+  storeLas(record + fields[kRangeStd].position, echo.range_std);
+  storeLas(record + fields[kSaturated].position, echo.saturated);
+  storeLas(record + fields[kNew].position, static_cast<std::uint8_t>(echo.new_echo ? 1 : 0));
 }
 
-void EchoFields::store(std::byte* record, const WaveformEcho& echo, double spacing_ns,
-                       double range_std, bool is_new) const {
-  const double scale = spacing_ns * kFwhmOfGaussian;
-  storeLas(record + fields[kAmplitude].position, static_cast<float>(echo.amplitude));
-  storeLas(record + fields[kWidth].position, static_cast<float>(scale * echo.width));
-  storeLas(record + fields[kWidthStd].position, static_cast<float>(scale * echo.width_std));
-  storeLas(record + fields[kRangeStd].position, static_cast<float>(range_std));
-  storeLas(record + fields[kSaturated].position, static_cast<std::uint16_t>(echo.saturated));
-  storeLas(record + fields[kNew].position, static_cast<std::uint8_t>(is_new ? 1 : 0));
+void EchoFields::storeSection(float cross_section, float coefficient, std::byte* record) const {
+  if (fields.size() <= kCoefficient) return;
+  storeLas(record + fields[kSection].position, cross_section);
+  storeLas(record + fields[kCoefficient].position, coefficient);
 }
 
-EchoWriter::EchoWriter(const EchoJob& job) : job_(job), reader_(job.source) {}
-
-WaveformDecomposer& EchoWriter::decomposerOf(unsigned descriptor) {
-  const auto found = decomposers_.find(descriptor);
-  if (found != decomposers_.end()) return found->second;
-  const WaveformDescriptor& d = job_.source.descriptors().at(descriptor);
-  const WaveformSettings& wanted = job_.settings;
-  DecompositionSettings settings;
-  settings.false_echoes = wanted.false_echoes;
-  settings.ringing = wanted.ringing;
-  settings.ringing_reach = wanted.ringing_reach_ns * kPicosecondsPerNanosecond / d.spacing_ps;
-  settings.saturation = wanted.saturation > 0.0 ? wanted.saturation : d.largestCount();
-  settings.clipping = 0.0;
-  return decomposers_
-      .emplace(descriptor, WaveformDecomposer(job_.responses.at(descriptor), settings))
-      .first->second;
-}
-
-/// Pairs points and echoes, the nearest first, within the width of the response.
-void EchoWriter::match(const WaveformPulse& pulse) {
-  const double spacing = waveform_.descriptor.spacing_ps;
-  const double reach =
-      kFwhmOfGaussian * spacing * job_.responses.at(waveform_.reference.descriptor).width();
-  match_.echo_of_point.assign(pulse.count, -1);
-  match_.point_of_echo.assign(static_cast<std::size_t>(found_.count), -1);
-  for (;;) {
-    double nearest = reach;
-    int best_point = -1, best_echo = -1;
-    for (std::size_t p = 0; p < pulse.count; ++p) {
-      if (match_.echo_of_point[p] >= 0) continue;
-      const auto location =
-          WaveformReference::of(pulse.records + p * job_.las.header().record_length,
-                                job_.las.layout())
-              .location_ps;
-      for (int e = 0; e < found_.count; ++e) {
-        const auto at = static_cast<std::size_t>(e);
-        const double distance =
-            std::abs(found_.echo[at].time * spacing - static_cast<double>(location));
-        if (match_.point_of_echo[at] >= 0 || !(distance < nearest)) continue;
-        nearest = distance;
-        best_point = static_cast<int>(p);
-        best_echo = e;
-      }
-    }
-    if (best_point < 0) return;
-    match_.echo_of_point[static_cast<std::size_t>(best_point)] = best_echo;
-    match_.point_of_echo[static_cast<std::size_t>(best_echo)] = best_point;
-  }
-}
+EchoWriter::EchoWriter(const EchoJob& job)
+    : job_(job), reader_(job.source), echoes_(job.responses, job.settings) {}
 
 std::byte* EchoWriter::addRecord(const std::byte* record, std::vector<std::byte>& records) {
   const std::size_t at = records.size();
   records.resize(at + job_.fields.record_length);
   std::memcpy(&records[at], record, job_.las.header().record_length);
-  job_.fields.storeNothing(&records[at]);
+  constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+  job_.fields.store(EchoAttributes(), &records[at]);
+  job_.fields.storeSection(kNothing, kNothing, &records[at]);
   return &records[at];
 }
 
-void EchoWriter::storeEcho(int echo, const WaveformReference& own, bool is_new,
-                           std::byte* record) const {
-  const WaveformEcho& e = found_.echo[static_cast<std::size_t>(echo)];
-  const double spacing = waveform_.descriptor.spacing_ps;
+void EchoWriter::storeEcho(int echo, const WaveformReference& own, std::byte* record) const {
   const Eigen::Vector3d metres_per_unit =
       job_.metres.scale.cwiseQuotient(job_.las.header().scale).cwiseAbs();
   const double speed = own.alongPulse().cwiseProduct(metres_per_unit).norm();
-  job_.fields.store(record, e, spacing / kPicosecondsPerNanosecond, e.time_std * spacing * speed,
-                    is_new);
+  job_.fields.store(echoes_.attributesOf(echo, speed), record);
+  if (!sections_.covered) return;
+  const auto at = static_cast<std::size_t>(echo);
+  job_.fields.storeSection(static_cast<float>(sections_.cross_section[at]),
+                           static_cast<float>(sections_.coefficient[at]), record);
+}
+
+void EchoWriter::findSections(const WaveformPulse& pulse, WaveformCounts& counts) {
+  if (job_.cross_sections == nullptr) return;
+  job_.cross_sections->evaluate(pulse, echoes_, node_, sections_);
+  if (pulse.repeated) return;
+  counts.uncovered += sections_.covered ? 0 : 1;
+  if (!sections_.covered) return;
+  for (const double transmission : sections_.transmission) {
+    counts.attenuated += transmission < 1.0 ? 1 : 0;
+    counts.opaque += transmission <= CrossSectionResult::kLeastTransmission ? 1 : 0;
+  }
 }
 
 /// Moves a record along its pulse to a time of its waveform.
@@ -175,41 +155,21 @@ void EchoWriter::moveTo(double time_ps, const WaveformReference& own, std::uint6
   changed.store(record, job_.las.layout());
 }
 
-int EchoWriter::nearestPoint(const WaveformPulse& pulse, double time_ps) const {
-  int nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t p = 0; p < pulse.count; ++p) {
-    const std::byte* record = pulse.records + p * job_.las.header().record_length;
-    const double location = WaveformReference::of(record, job_.las.layout()).location_ps;
-    if (!(std::abs(location - time_ps) < least)) continue;
-    least = std::abs(location - time_ps);
-    nearest = static_cast<int>(p);
-  }
-  return nearest;
-}
-
 /// Echoes that no point belongs to. The intensity is in proportion to the amplitude, as that of the
 /// point beside it.
 void EchoWriter::addEchoes(const WaveformPulse& pulse, std::vector<std::byte>& records) {
   constexpr double kLargestIntensity = 65535.0;
-  for (int e = 0; e < found_.count; ++e) {
-    if (match_.point_of_echo[static_cast<std::size_t>(e)] >= 0) continue;
-    const double time =
-        found_.echo[static_cast<std::size_t>(e)].time * waveform_.descriptor.spacing_ps;
-    const auto p = static_cast<std::size_t>(nearestPoint(pulse, time));
+  for (int e = 0; e < echoes_.count(); ++e) {
+    if (echoes_.returnOf(e) >= 0) continue;
+    const std::size_t p = echoes_.nearestReturn(e);
     const std::byte* beside = pulse.records + p * job_.las.header().record_length;
     const WaveformReference own = WaveformReference::of(beside, job_.las.layout());
     std::byte* record = addRecord(beside, records);
-    storeEcho(e, own, true, record);
-    moveTo(time, own, pulse.first + p, record);
+    storeEcho(e, own, record);
+    moveTo(echoes_.timeOf(e), own, pulse.first + p, record);
     flagSynthetic(job_.las.layout(), record);
     job_.las.layout().storeClass(kUnclassified, record);
-    const int other = match_.echo_of_point[p];
-    double intensity = 0.0;
-    if (other >= 0)
-      intensity = LasRecordLayout::intensityOf(beside) *
-                  found_.echo[static_cast<std::size_t>(e)].amplitude /
-                  found_.echo[static_cast<std::size_t>(other)].amplitude;
+    const double intensity = LasRecordLayout::intensityOf(beside) * echoes_.intensityRatio(e);
     LasRecordLayout::storeIntensity(
         static_cast<std::uint16_t>(std::lround(std::clamp(intensity, 0.0, kLargestIntensity))),
         record);
@@ -223,16 +183,14 @@ void EchoWriter::renumber(const WaveformPulse& pulse, std::size_t begin,
   if (layout.numberOfReturnsOf(pulse.records) != pulse.count) return;
   const std::size_t length = job_.fields.record_length;
   const std::size_t count = (records.size() - begin) / length;
-  std::vector<std::pair<float, std::size_t>> order;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t at = begin + i * length;
-    order.emplace_back(WaveformReference::of(&records[at], layout).location_ps, at);
-  }
-  std::sort(order.begin(), order.end());
+  std::vector<double> times;
+  for (std::size_t i = 0; i < count; ++i)
+    times.push_back(WaveformReference::of(&records[begin + i * length], layout).location_ps);
+  const std::vector<unsigned> numbers = numbersByTime(times);
   const unsigned most = layout.extended ? 15 : 7;
   for (std::size_t i = 0; i < count; ++i)
-    storeReturns(layout, std::min(static_cast<unsigned>(i + 1), most),
-                 std::min(static_cast<unsigned>(count), most), &records[order[i].second]);
+    storeReturns(layout, std::min(numbers[i], most), std::min(static_cast<unsigned>(count), most),
+                 &records[begin + i * length]);
 }
 
 void EchoWriter::append(const WaveformPulse& pulse, std::vector<std::byte>& records,
@@ -245,20 +203,22 @@ void EchoWriter::append(const WaveformPulse& pulse, std::vector<std::byte>& reco
     for (std::size_t p = 0; p < pulse.count; ++p) addRecord(pulse.records + p * length, records);
     return;
   }
-  decomposerOf(waveform_.reference.descriptor)
-      .decompose(waveform_.counts.data(), waveform_.counts.size(), found_);
-  match(pulse);
+  locations_.clear();
+  for (std::size_t p = 0; p < pulse.count; ++p)
+    locations_.push_back(
+        WaveformReference::of(pulse.records + p * length, job_.las.layout()).location_ps);
+  echoes_.decompose(waveform_, locations_);
+  findSections(pulse, counts);
   for (std::size_t p = 0; p < pulse.count; ++p) {
     const std::byte* given = pulse.records + p * length;
     std::byte* record = addRecord(given, records);
-    const int echo = match_.echo_of_point[p];
+    const int echo = echoes_.echoOf(p);
     if (echo < 0) continue;
     const WaveformReference own = WaveformReference::of(given, job_.las.layout());
-    const double time =
-        found_.echo[static_cast<std::size_t>(echo)].time * waveform_.descriptor.spacing_ps;
-    storeEcho(echo, own, false, record);
+    const double time = echoes_.timeOf(echo);
+    storeEcho(echo, own, record);
     ++counts.matched;
-    counts.sum_offset_ps += time - static_cast<double>(own.location_ps);
+    counts.sum_offset_ps += time - locations_[p];
     if (job_.settings.move_returns) moveTo(time, own, pulse.first + p, record);
   }
   const bool adds = job_.settings.new_echoes && !pulse.repeated;
@@ -268,9 +228,9 @@ void EchoWriter::append(const WaveformPulse& pulse, std::vector<std::byte>& reco
   counts.added += written - pulse.count;
   if (pulse.repeated) return;
   ++counts.waveforms;
-  counts.echoes += static_cast<std::uint64_t>(found_.count);
-  counts.single += found_.count == 1 ? 1 : 0;
-  counts.saturated += found_.saturated > 0 ? 1 : 0;
+  counts.echoes += static_cast<std::uint64_t>(echoes_.found().count);
+  counts.single += echoes_.found().count == 1 ? 1 : 0;
+  counts.saturated += echoes_.found().saturated > 0 ? 1 : 0;
 }
 
 }  // namespace pcl_als::detail

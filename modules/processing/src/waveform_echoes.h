@@ -3,14 +3,14 @@
 #pragma once
 
 #include <map>
-#include <string>
 #include <vector>
 
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/waveform_job.h>
-#include <pcl_als/waveform/waveform_decomposer.h>
+#include <pcl_als/waveform/pulse_echoes.h>
 #include <pcl_als/waveform/waveform_reader.h>
 
+#include "echo_cross_sections.h"
 #include "waveform_pulses.h"
 
 namespace pcl_als::detail {
@@ -20,11 +20,11 @@ struct EchoFields {
   std::vector<LasExtraField> fields;  ///< placed
   std::size_t record_length = 0;      ///< of the output
 
-  explicit EchoFields(const LasFile& las);
-  /// Values of a point without an echo, or of an echo.
-  void storeNothing(std::byte* record) const;
-  void store(std::byte* record, const WaveformEcho& echo, double spacing_ns, double range_std,
-             bool is_new) const;
+  /// \param cross_sections null: without them
+  EchoFields(const LasFile& las, const EchoCrossSections* cross_sections);
+  void store(const EchoAttributes& echo, std::byte* record) const;
+  /// NaN: unknown. Nothing without cross sections.
+  void storeSection(float cross_section, float coefficient, std::byte* record) const;
 };
 
 /// What all threads share.
@@ -34,7 +34,8 @@ struct EchoJob {
   const WaveformSettings& settings;
   std::map<unsigned, PulseResponse> responses;  ///< by descriptor
   EchoFields fields;
-  LasScaling metres;  ///< of the coordinates
+  LasScaling metres;                                  ///< of the coordinates
+  const EchoCrossSections* cross_sections = nullptr;  ///< null: none are computed
 };
 
 /** \brief Decomposes pulses into records of the output; one per thread.
@@ -48,28 +49,22 @@ class EchoWriter {
   void append(const WaveformPulse& pulse, std::vector<std::byte>& records, WaveformCounts& counts);
 
  private:
-  struct Match {
-    std::vector<int> echo_of_point;  ///< -1: none
-    std::vector<int> point_of_echo;
-  };
-
-  WaveformDecomposer& decomposerOf(unsigned descriptor);
-  void match(const WaveformPulse& pulse);
   std::byte* addRecord(const std::byte* record, std::vector<std::byte>& records);
-  void storeEcho(int echo, const WaveformReference& own, bool is_new, std::byte* record) const;
+  void storeEcho(int echo, const WaveformReference& own, std::byte* record) const;
   void moveTo(double time_ps, const WaveformReference& own, std::uint64_t point,
               std::byte* record) const;
+  void findSections(const WaveformPulse& pulse, WaveformCounts& counts);
   void addEchoes(const WaveformPulse& pulse, std::vector<std::byte>& records);
-  int nearestPoint(const WaveformPulse& pulse, double time_ps) const;
   void renumber(const WaveformPulse& pulse, std::size_t begin,
                 std::vector<std::byte>& records) const;
 
   const EchoJob& job_;
   WaveformReader reader_;
-  std::map<unsigned, WaveformDecomposer> decomposers_;
+  PulseEchoes echoes_;
   Waveform waveform_;
-  Decomposition found_;
-  Match match_;
+  std::vector<double> locations_;  ///< of the returns of the pulse
+  PulseSections sections_;
+  std::size_t node_ = 0;  ///< on the trajectory
 };
 
 }  // namespace pcl_als::detail

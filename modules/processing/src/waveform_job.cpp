@@ -9,103 +9,32 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/las/las_selection.h>
 #include <pcl_als/processing/waveform_job.h>
-#include <pcl_als/waveform/pulse_width.h>
 
+#include "echo_cross_sections.h"
 #include "waveform_echoes.h"
 #include "waveform_pulses.h"
 
 namespace pcl_als {
 namespace {
 
-constexpr double kPicosecondsPerNanosecond = 1000.0;
-/// Waveforms from which the width of the response is estimated, for each descriptor.
-constexpr std::size_t kWaveformsForWidth = 4000;
-/// Runs of records that these are taken from, over the whole file.
-constexpr std::uint64_t kRuns = 40;
 /// Pulses that a thread decomposes at once.
 constexpr std::size_t kPulsesTogether = 512;
 
-void check(const WaveformSettings& s) {
-  if (!(s.pulse_width_ns >= 0.0)) throw UsageError("the width of the pulse must not be negative");
-  if (!s.pulse.empty() && !(s.pulse_spacing_ns > 0.0))
-    throw UsageError("the spacing of the pulse's samples must be positive");
-  if (!s.pulse.empty() && s.pulse_width_ns > 0.0)
-    throw UsageError("either the width of the pulse or its samples can be given");
-  if (!(s.saturation >= 0.0)) throw UsageError("the saturation must not be negative");
-}
-
-/// Takes waveforms from all over the file, by descriptor.
-std::map<unsigned, PulseWidthEstimate> sampleWaveforms(const WaveformSource& source,
-                                                       double saturation) {
-  const LasFile& las = source.las();
-  const std::uint64_t all = las.header().point_count;
-  const std::size_t length = las.header().record_length;
-  const std::size_t run = std::min<std::uint64_t>(all, 1 + kWaveformsForWidth / kRuns);
-  std::map<unsigned, PulseWidthEstimate> estimates;
-  std::vector<std::byte> records(run * length);
-  WaveformReader reader(source);
-  Waveform waveform;
-  std::uint64_t behind = 0;  // the last run
-  for (std::uint64_t k = 0; k < kRuns && all > 0; ++k) {
-    const std::uint64_t first = std::max(behind, k * (all - run) / kRuns);
-    const std::size_t count = std::min<std::uint64_t>(run, all - first);
-    if (count == 0) break;
-    las.readRecords(first, count, records.data());
-    behind = first + count;
-    std::uint64_t last_offset = ~std::uint64_t{0};
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!reader.read(&records[i * length], first + i, waveform)) continue;
-      if (waveform.reference.byte_offset == last_offset) continue;
-      last_offset = waveform.reference.byte_offset;
-      const double largest = waveform.descriptor.largestCount();
-      estimates[waveform.reference.descriptor].add(waveform.counts,
-                                                   saturation > 0.0 ? saturation : largest);
-    }
-  }
-  return estimates;
-}
-
-/// Responses of a width that was given, for all descriptors, or samples.
-PulseResponse givenResponse(const WaveformSettings& s, const WaveformDescriptor& d) {
-  const double samples_per_ns = kPicosecondsPerNanosecond / d.spacing_ps;
-  if (!s.pulse.empty()) return PulseResponse::sampled(s.pulse, s.pulse_spacing_ns * samples_per_ns);
-  return PulseResponse::gaussian(s.pulse_width_ns * samples_per_ns / kFwhmOfGaussian);
-}
-
-/// The width in nanoseconds is the same for all descriptors: that with most waveforms has it for
-/// the others that have too few.
 std::map<unsigned, PulseResponse> responsesOf(const WaveformSource& source,
                                               const WaveformSettings& settings) {
-  std::map<unsigned, PulseResponse> responses;
-  const bool given = settings.pulse_width_ns > 0.0 || !settings.pulse.empty();
-  std::map<unsigned, double> width_ns;
-  double usual_ns = 0.0;
-  if (!given) {
-    std::size_t most = 0;
-    for (const auto& [index, estimate] : sampleWaveforms(source, settings.saturation)) {
-      const std::optional<double> width = estimate.width();
-      if (!width) continue;
-      width_ns[index] =
-          *width * source.descriptors().at(index).spacing_ps / kPicosecondsPerNanosecond;
-      if (estimate.waveforms() > most) usual_ns = width_ns[index];
-      most = std::max(most, estimate.waveforms());
-    }
-    if (width_ns.empty())
-      throw InputError(source.las().path().string() +
-                       ": too few waveforms have a single strong echo to estimate the width of "
-                       "the pulse; state it");
-  }
-  for (const auto& [index, d] : source.descriptors()) {
-    if (given) {
-      responses.emplace(index, givenResponse(settings, d));
-      continue;
-    }
-    const auto own = width_ns.find(index);
-    const double ns = own == width_ns.end() ? usual_ns : own->second;
-    responses.emplace(index,
-                      PulseResponse::gaussian(ns * kPicosecondsPerNanosecond / d.spacing_ps));
-  }
-  return responses;
+  const LasFile& las = source.las();
+  const std::size_t length = las.header().record_length;
+  std::vector<std::byte> records;
+  WaveformReader reader(source);
+  Waveform waveform;
+  const WaveformRunReader read = [&](std::uint64_t first, std::size_t count, const auto& take) {
+    records.resize(count * length);
+    las.readRecords(first, count, records.data());
+    for (std::size_t i = 0; i < count; ++i)
+      if (reader.read(&records[i * length], first + i, waveform)) take(waveform);
+  };
+  return pulseResponses(source.descriptors(), settings, las.header().point_count, read,
+                        las.path().string());
 }
 
 /// Decomposes the pulses of a block on several threads, in the order of the file.
@@ -168,27 +97,44 @@ void WaveformCounts::merge(const WaveformCounts& other) {
   saturated += other.saturated;
   single += other.single;
   sum_offset_ps += other.sum_offset_ps;
+  uncovered += other.uncovered;
+  attenuated += other.attenuated;
+  opaque += other.opaque;
 }
 
 WaveformResult decomposeWaveforms(const std::filesystem::path& input,
                                   const std::filesystem::path& output,
                                   const WaveformSettings& settings,
                                   const ProgressCallback& callback) {
-  check(settings);
+  settings.check();
   const UnchangedInputs unchanged;
   ProgressReport progress(callback);
   const LasFile las(input);
   const WaveformSource source(las);
+  std::optional<detail::EchoCrossSections> sections;
+  if (settings.cross_sections.trajectory) sections.emplace(las, settings.cross_sections);
   progress.begin("Estimating the pulse");
   WaveformResult result;
-  const detail::EchoJob job{
-      las,           source, settings, responsesOf(source, settings), detail::EchoFields(las),
-      las.toMetres()};
+  const detail::EchoCrossSections* const of_echoes = sections ? &*sections : nullptr;
+  const detail::EchoJob job{las,
+                            source,
+                            settings,
+                            responsesOf(source, settings),
+                            detail::EchoFields(las, of_echoes),
+                            las.toMetres(),
+                            of_echoes};
   for (const auto& [index, response] : job.responses)
     result.pulse_width_ns.emplace_back(index, response.width() * kFwhmOfGaussian *
                                                   source.descriptors().at(index).spacing_ps /
                                                   kPicosecondsPerNanosecond);
   progress.end(numberText(result.pulse_width_ns.front().second, 2) + " ns wide");
+  if (sections) {
+    progress.begin("Calibrating cross sections");
+    sections->calibrate(source, job.responses, settings);
+    result.cross_sections = sections->result();
+    progress.end("constant " + significantText(result.cross_sections->constant, 4) +
+                 (result.cross_sections->calibrated ? "" : " (relative)"));
+  }
   progress.begin("Decomposing waveforms");
   LasSelectionWriter writer(output, las, job.fields.fields, settings.threads);
   BlockDecomposition blocks(job, writer);
@@ -202,9 +148,37 @@ WaveformResult decomposeWaveforms(const std::filesystem::path& input,
   const WaveformCounts& c = result.counts;
   result.counts.unmatched = c.points - c.without_waveform - c.matched;
   result.remarks = writer.remarks();
+  if (result.cross_sections && result.cross_sections->reference)
+    for (const std::string& warning : result.cross_sections->reference->warnings)
+      result.remarks.push_back("warning: " + warning);
   progress.end(grouped(c.echoes) + " echoes in " + grouped(c.waveforms) + " waveforms");
   return result;
 }
+
+namespace {
+
+std::string describeSections(const CrossSectionResult& sections, const WaveformCounts& counts) {
+  std::string text = "cross sections: calibration constant " + shortText(sections.constant);
+  if (sections.calibrated)
+    text += " m2 / (count ns km4)";
+  else
+    text += ", they are relative";
+  if (sections.reference)
+    text += ", relative std " + significantText(sections.reference->relative_std, 2);
+  text += '\n';
+  if (sections.full_coefficient > 0.0)
+    text += "attenuation: a whole pulse has the backscatter coefficient " +
+            significantText(sections.full_coefficient, 4) + "; " + grouped(counts.attenuated) +
+            " echoes behind others corrected, " + grouped(counts.opaque) +
+            " of them for the least transmission of " +
+            shortText(CrossSectionResult::kLeastTransmission) + '\n';
+  if (counts.uncovered > 0)
+    text += grouped(counts.uncovered) +
+            " waveforms without a range from the trajectory have no cross sections\n";
+  return text;
+}
+
+}  // namespace
 
 std::string describe(const WaveformResult& result) {
   const WaveformCounts& c = result.counts;
@@ -220,6 +194,7 @@ std::string describe(const WaveformResult& result) {
   if (c.matched > 0)
     text +=
         "echoes are " + numberText(c.meanOffset(), 0) + " ps behind their returns in the mean\n";
+  if (result.cross_sections) text += describeSections(*result.cross_sections, c);
   return text;
 }
 

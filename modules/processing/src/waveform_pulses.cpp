@@ -4,20 +4,12 @@
 
 #include <algorithm>
 
-#include <pcl_als/waveform/waveform_descriptor.h>
+#include <pcl_als/waveform/pulse_echoes.h>
 
 namespace pcl_als::detail {
 namespace {
 
 constexpr std::size_t kBlockRecords = std::size_t{1} << 16;
-constexpr std::size_t kRemembered = std::size_t{1} << 20;
-/// Records of one pulse at most; a file whose points all refer to one packet is cut here.
-constexpr std::size_t kMostRecords = 64;
-
-bool sameWaveform(const WaveformReference& a, const WaveformReference& b) {
-  return a.descriptor != 0 && a.descriptor == b.descriptor && a.byte_offset == b.byte_offset;
-}
-
 /// Divides records into pulses. \return the number of records in complete pulses
 std::size_t divide(const LasFile& las, const std::vector<std::byte>& records, std::size_t count,
                    std::uint64_t first, bool last, PacketMemory& memory,
@@ -28,7 +20,7 @@ std::size_t divide(const LasFile& las, const std::vector<std::byte>& records, st
   while (from < count) {
     const WaveformReference own = WaveformReference::of(&records[from * length], las.layout());
     std::size_t to = from + 1;
-    while (to < count && to - from < kMostRecords &&
+    while (to < count && to - from < kMostPointsOfPulse &&
            sameWaveform(own, WaveformReference::of(&records[to * length], las.layout())))
       ++to;
     if (to == count && !last && from > 0) break;
@@ -40,16 +32,6 @@ std::size_t divide(const LasFile& las, const std::vector<std::byte>& records, st
 }
 
 }  // namespace
-
-PacketMemory::PacketMemory() : last_(kRemembered, ~std::uint64_t{0}) {}
-
-bool PacketMemory::meets(std::uint64_t offset) {
-  constexpr std::uint64_t kOddFactor = 0x9E3779B97F4A7C15;  // multiplicative hashing
-  std::uint64_t& place = last_[(offset * kOddFactor) >> 44U];
-  const bool met = place == offset;
-  place = offset;
-  return met;
-}
 
 void readPulses(const LasFile& las,
                 const std::function<void(const std::vector<WaveformPulse>&)>& take) {

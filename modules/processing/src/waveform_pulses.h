@@ -19,17 +19,6 @@ struct WaveformPulse {
   bool repeated = false;    ///< its packet was met before, with other records between
 };
 
-/// Remembers the packets that were met: the last one of every 2^20 hash values.
-class PacketMemory {
- public:
-  PacketMemory();
-  /// Whether the packet was met before; it is from now on.
-  bool meets(std::uint64_t offset);
-
- private:
-  std::vector<std::uint64_t> last_;
-};
-
 /** \brief Reads a file in order, as pulses.
  *
  * Calls \a take with the pulses of a block of records that are complete: the last pulse of a block

@@ -232,6 +232,7 @@ std::string intensityJson(const IntensityReport& report) {
   json["reflectance"] = referenceJson(report);
   json["output_scale"] = report.output.scale;
   json["saturation"] = report.result->run->saturation();
+  json["echo_energy"] = report.result->run->settings().echo_energy;
   json["files"] = filesJson(report);
   json["left_out"] = excludedJson(report.result->excluded);
   json["warnings"] = textsOf(report.result->warnings);
@@ -267,6 +268,7 @@ StoredRadiometry readIntensityJson(const std::filesystem::path& path) {
   }
   if (json.contains("reflectance") && json["reflectance"].is_object())
     stored.constant = positive(json["reflectance"], "constant", name);
+  stored.echo_energy = json.contains("echo_energy") && json["echo_energy"] == true;
   return stored;
 }
 

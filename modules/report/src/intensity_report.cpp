@@ -142,7 +142,9 @@ std::string countsText(const IntensityCounts& counts, const IntensityRun& run) {
   if (counts.excluded > 0)
     out << "  left as they are: " << grouped(counts.excluded)
         << " points of strips that are excluded\n";
-  if (counts.zeros + counts.saturated > 0)
+  if (run.settings().echo_energy && counts.zeros > 0)
+    out << "  without an echo: " << grouped(counts.zeros) << " points, written as 0\n";
+  else if (counts.zeros + counts.saturated > 0)
     out << "  of intensity 0: " << grouped(counts.zeros) << " points; saturated ("
         << run.saturation() << " and more): " << grouped(counts.saturated)
         << ", their values are lower bounds\n";

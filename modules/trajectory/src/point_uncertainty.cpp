@@ -39,7 +39,8 @@ PointUncertainty::Sigma PointUncertainty::sigmaOf(const Eigen::Matrix3d& covaria
 
 bool PointUncertainty::covarianceAt(double time, const Eigen::Vector3d& point,
                                     const Eigen::Vector3d& normal, Cursor& cursor,
-                                    Eigen::Matrix3d& covariance, std::size_t system) const {
+                                    Eigen::Matrix3d& covariance, std::size_t system,
+                                    double range_std) const {
   SensorPose pose;
   if (!std::isfinite(time) || !flight_->poseAt(time, pose, cursor.sample)) return false;
   const double cell = std::floor(time / kCell);
@@ -57,7 +58,9 @@ bool PointUncertainty::covarianceAt(double time, const Eigen::Vector3d& point,
   const double range = geometry.range(), across = levels.angle * range;
   const double footprint = levels.footprint * range * tangentOfIncidence(beam, normal);
   Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
-  const double along_sq = levels.range * levels.range + footprint * footprint;
+  // The level is that of all points, also of what range_std does not contain.
+  const double range_error = range_std > levels.range ? range_std : levels.range;
+  const double along_sq = range_error * range_error + footprint * footprint;
   if (system < differences_.size()) {
     const Difference& difference = differences_[system];
     const DesignBlock design = effect.leftCols<kSystemParameterCount>();

@@ -169,7 +169,11 @@ const std::byte* WaveformReader::packet(std::uint64_t offset, std::size_t bytes)
 }
 
 bool WaveformReader::read(const std::byte* record, std::uint64_t point, Waveform& waveform) {
-  const WaveformReference reference = WaveformReference::of(record, source_.las().layout());
+  return read(WaveformReference::of(record, source_.las().layout()), point, waveform);
+}
+
+bool WaveformReader::read(const WaveformReference& reference, std::uint64_t point,
+                          Waveform& waveform) {
   if (reference.descriptor == 0) return false;
   const auto found = source_.descriptors().find(reference.descriptor);
   if (found == source_.descriptors().end())

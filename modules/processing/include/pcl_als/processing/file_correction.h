@@ -34,7 +34,9 @@ struct FileCorrectionOptions {
   int threads = 0;              ///< 0: all cores; the result does not depend on it
 
   /// Add the standard deviations of every point (PointUncertainty) to a .las or .laz file, as the
-  /// extra bytes sigma_horizontal and sigma_vertical (float, metres; NaN: not known).
+  /// extra bytes sigma_horizontal and sigma_vertical (float, metres; NaN: not known). The extra
+  /// bytes range_std of decomposed waveforms, if the file has them, are the standard deviations of
+  /// ranges that exceed the level of the calibration.
   bool uncertainty = false;
   /// Standard deviations of the trajectory at times without strip corrections
   /// (CalibrationCovariance); may be empty.

@@ -33,6 +33,7 @@ struct StoredRadiometry {
   RadiometricModel model;
   std::map<std::string, double> gains;
   double constant = 0.0;
+  bool echo_energy = false;  ///< of energies of echoes, not of intensities
 };
 
 struct IntensityOptions {

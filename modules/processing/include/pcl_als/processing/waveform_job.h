@@ -4,26 +4,48 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <pcl_als/common/progress.h>
+#include <pcl_als/common/survey_types.h>
+#include <pcl_als/radiometry/cross_section.h>
+#include <pcl_als/radiometry/reference_targets.h>
+#include <pcl_als/trajectory/trajectory.h>
+#include <pcl_als/waveform/echo_settings.h>
 
 namespace pcl_als {
 
-/// Response of the system, and what is accepted as an echo.
-struct WaveformSettings {
-  /// Full width at half maximum of the response, nanoseconds; 0: from the waveforms
-  /// (PulseWidthEstimate).
-  double pulse_width_ns = 0.0;
-  /// Samples of the response in place of a Gaussian, with their spacing in nanoseconds.
-  std::vector<double> pulse;
-  double pulse_spacing_ns = 0.0;
-  double false_echoes = 3e-4;  ///< expected in a waveform, as DecompositionSettings
-  double ringing = 0.0;        ///< of the amplitude of the echo before, as DecompositionSettings
-  double ringing_reach_ns = 30.0;
-  double saturation = 0.0;  ///< digitizer counts; 0: the largest that the bits of a sample can hold
-  bool new_echoes = true;   ///< write the echoes that no return belongs to
+/// Cross sections of echoes by the radar equation.
+struct CrossSectionSettings {
+  std::shared_ptr<const Trajectory> trajectory;  ///< for the ranges; null: no cross sections
+  std::optional<int> gps_week;
+  /// Divergence of the beam, extinction, and the calibration constant if there are no targets.
+  CrossSectionModel model;
+  /// Level surfaces of known reflectance, from which the calibration constant is estimated.
+  std::vector<ReferenceTarget> targets;
+  double target_radius = 1.0;  ///< metres: points this close belong to a target
+  /// Divide echoes behind others of their pulse by the transmission that these leave
+  /// (pulseTransmissions()), with the median coefficient of single echoes as that of a whole pulse.
+  bool correct_attenuation = false;
+  bool force = false;  ///< continue with a trajectory that cannot belong to the points
+};
+
+struct CrossSectionResult {
+  static constexpr double kLeastTransmission = 0.1;
+
+  double constant = 1.0;                     ///< of CrossSectionModel
+  bool calibrated = false;                   ///< otherwise cross sections are relative
+  std::optional<ReferenceResult> reference;  ///< if there were targets
+  double full_coefficient = 0.0;  ///< backscatter coefficient of a whole pulse; 0: no correction
+};
+
+/// EchoSettings, and what is written.
+struct WaveformSettings : EchoSettings {
+  CrossSectionSettings cross_sections;
+  bool new_echoes = true;     ///< write the echoes that no return belongs to
   bool move_returns = false;  ///< move returns along their pulse to the time of their echo
   int threads = 0;            ///< 0: all cores; the result does not depend on it
 };
@@ -34,12 +56,15 @@ struct WaveformCounts {
   std::uint64_t without_waveform = 0;  ///< points
   std::uint64_t waveforms = 0;
   std::uint64_t echoes = 0;
-  std::uint64_t matched = 0;    ///< points that an echo belongs to
-  std::uint64_t unmatched = 0;  ///< points with a waveform that no echo belongs to
-  std::uint64_t added = 0;      ///< echoes that no point belongs to
-  std::uint64_t saturated = 0;  ///< waveforms with saturated samples
-  std::uint64_t single = 0;     ///< waveforms with one echo
-  double sum_offset_ps = 0.0;   ///< of the echoes behind their points, over \a matched
+  std::uint64_t matched = 0;     ///< points that an echo belongs to
+  std::uint64_t unmatched = 0;   ///< points with a waveform that no echo belongs to
+  std::uint64_t added = 0;       ///< echoes that no point belongs to
+  std::uint64_t saturated = 0;   ///< waveforms with saturated samples
+  std::uint64_t single = 0;      ///< waveforms with one echo
+  double sum_offset_ps = 0.0;    ///< of the echoes behind their points, over \a matched
+  std::uint64_t uncovered = 0;   ///< waveforms that the trajectory does not cover
+  std::uint64_t attenuated = 0;  ///< echoes whose cross section was divided by a transmission
+  std::uint64_t opaque = 0;      ///< those of them that had the least transmission
 
   void merge(const WaveformCounts& other);
   double meanOffset() const {
@@ -51,6 +76,7 @@ struct WaveformResult {
   WaveformCounts counts;
   /// Of the response that was used, nanoseconds, by descriptor index.
   std::vector<std::pair<unsigned, double>> pulse_width_ns;
+  std::optional<CrossSectionResult> cross_sections;
   std::vector<std::string> remarks;
 };
 
@@ -58,8 +84,9 @@ struct WaveformResult {
  *
  * Every point keeps its record. The extra bytes amplitude (digitizer counts), echo_width and
  * echo_width_std (full width at half maximum, nanoseconds), range_std (metres),
- * number_of_samples_saturated and new_echo are appended; without an echo they are NaN. A return
- * belongs to the nearest echo within the width of the response. Echoes that no return belongs to
+ * number_of_samples_saturated and new_echo are appended, and with a trajectory cross_section and
+ * backscatter_coefficient (CrossSectionModel); without an echo they are NaN. Returns
+ * and echoes are paired by PulseEchoes. Echoes that no return belongs to
  * follow the points of their pulse: the record of the nearest return of the pulse, flagged as
  * synthetic, with new_echo 1, class 1, and with the position and the return point waveform location
  * of the echo. Return numbers are renumbered where echoes are added and all returns of the pulse
@@ -71,7 +98,8 @@ struct WaveformResult {
  *
  * UsageError for settings out of their ranges and where the output is the input. InputError for
  * files without waveforms, damaged descriptors and packets (WaveformReader), and if the width of
- * the response cannot be estimated. Cancelled.
+ * the response cannot be estimated; also for a trajectory that does not belong to the points, and
+ * if the targets have too few single echoes. Cancelled.
  */
 WaveformResult decomposeWaveforms(const std::filesystem::path& input,
                                   const std::filesystem::path& output,

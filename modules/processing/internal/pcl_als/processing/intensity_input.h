@@ -83,6 +83,9 @@ class IntensityInput {
     std::string gain_control;  ///< name of an extra field to read; empty: none
     std::size_t window = kWindow;
     int threads = 0;  ///< 0: all cores
+    /// Intensities are the energies of echoes, amplitude times echo_width (extra bytes of
+    /// decomposed LAS files); 0 for points without an echo. InputError for files without them.
+    bool echo_energy = false;
   };
   /// Opens a file according to its extension.
   static std::unique_ptr<IntensityInput> open(const std::string& path, const Options& options);

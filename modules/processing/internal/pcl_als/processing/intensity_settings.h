@@ -36,7 +36,10 @@ struct IntensitySettings {
   std::map<std::string, double> pulse_rates;  ///< by strip, Hz: energy is in inverse proportion
   std::string gain_control;                   ///< name of the extra field
   std::vector<GainStep> gain_steps;
-  double saturation = 0.0;  ///< digital number; 0: 255 for 8-bit data, else 65535
+  /// Energies of echoes in place of intensities (IntensityInput::Options::echo_energy).
+  bool echo_energy = false;
+  /// digital number; 0: 255 for 8-bit data, else 65535; none for energies of echoes
+  double saturation = 0.0;
   bool keep_uncovered = false;
   bool statistics = false;
   bool force = false;         ///< continue with a trajectory that cannot belong to the points

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -23,7 +24,8 @@ namespace pcl_als {
  *
  *   [A B] C [A B]' + (s_r^2 + s_f^2) u u' + s_a^2 r^2 (I - u u') + s_p^2 I.
  *
- * s_r, s_a, s_p: range, direction and short-term position (ErrorLevels). s_f = footprint r tan
+ * s_r, s_a, s_p: range, direction and short-term position (ErrorLevels); s_r is that of the point
+ * itself (range_std of a decomposed waveform) where it is known and larger. s_f = footprint r tan
  * theta: on a surface with an angle of incidence theta the place within the footprint that the
  * range belongs to changes the range; without a known surface this term is omitted, and tan theta
  * is at most kSteepest. Error sources (ErrorSource) are taken as known. Without control, the height
@@ -60,8 +62,10 @@ class PointUncertainty {
   /// \param normal of the surface, unit, ground frame; NaN: none known
   /// \param system of a calibration with several (SystemLookup): what is known of its differences
   /// to the first one is added, as if it were independent
+  /// \param range_std standard deviation of the point's range, metres; NaN: not known
   bool covarianceAt(double time, const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
-                    Cursor& cursor, Eigen::Matrix3d& covariance, std::size_t system = 0) const;
+                    Cursor& cursor, Eigen::Matrix3d& covariance, std::size_t system = 0,
+                    double range_std = std::numeric_limits<double>::quiet_NaN()) const;
 
  private:
   /// Variances of a system's differences to the first one: parameters, coordinates.

@@ -82,6 +82,8 @@ class WaveformReader {
    * or a direction that is no number.
    */
   bool read(const std::byte* record, std::uint64_t point, Waveform& waveform);
+  /// The same for a reference that was read before.
+  bool read(const WaveformReference& reference, std::uint64_t point, Waveform& waveform);
 
  private:
   const std::byte* packet(std::uint64_t offset, std::size_t bytes);

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <optional>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/waveform/echo_settings.h>
+#include <pcl_als/waveform/pulse_width.h>
+#include <pcl_als/waveform/waveform_reader.h>
+
+namespace pcl_als {
+namespace {
+
+/// Waveforms from which the width of the response is estimated, for each descriptor.
+constexpr std::size_t kWaveformsForWidth = 4000;
+/// Runs of points that these are taken from, over the whole survey.
+constexpr std::uint64_t kRuns = 40;
+
+/// Takes waveforms from all over the survey, by descriptor.
+std::map<unsigned, PulseWidthEstimate> sampleWaveforms(const EchoSettings& settings,
+                                                       std::uint64_t points,
+                                                       const WaveformRunReader& read) {
+  const std::size_t run = std::min<std::uint64_t>(points, 1 + kWaveformsForWidth / kRuns);
+  std::map<unsigned, PulseWidthEstimate> estimates;
+  std::uint64_t behind = 0;  // the last run
+  for (std::uint64_t k = 0; k < kRuns && points > 0; ++k) {
+    const std::uint64_t first = std::max(behind, k * (points - run) / kRuns);
+    const std::size_t count = std::min<std::uint64_t>(run, points - first);
+    if (count == 0) break;
+    behind = first + count;
+    std::uint64_t last_offset = ~std::uint64_t{0};
+    read(first, count, [&](const Waveform& waveform) {
+      if (waveform.reference.byte_offset == last_offset) return;
+      last_offset = waveform.reference.byte_offset;
+      estimates[waveform.reference.descriptor].add(waveform.counts,
+                                                   settings.saturationOf(waveform.descriptor));
+    });
+  }
+  return estimates;
+}
+
+PulseResponse givenResponse(const EchoSettings& s, const WaveformDescriptor& d) {
+  const double samples_per_ns = kPicosecondsPerNanosecond / d.spacing_ps;
+  if (!s.pulse.empty()) return PulseResponse::sampled(s.pulse, s.pulse_spacing_ns * samples_per_ns);
+  return PulseResponse::gaussian(s.pulse_width_ns * samples_per_ns / kFwhmOfGaussian);
+}
+
+}  // namespace
+
+void EchoSettings::check() const {
+  if (!(pulse_width_ns >= 0.0)) throw UsageError("the width of the pulse must not be negative");
+  if (!pulse.empty() && !(pulse_spacing_ns > 0.0))
+    throw UsageError("the spacing of the pulse's samples must be positive");
+  if (!pulse.empty() && pulse_width_ns > 0.0)
+    throw UsageError("either the width of the pulse or its samples can be given");
+  if (!(saturation >= 0.0)) throw UsageError("the saturation must not be negative");
+}
+
+DecompositionSettings EchoSettings::decompositionOf(const WaveformDescriptor& descriptor) const {
+  DecompositionSettings settings;
+  settings.false_echoes = false_echoes;
+  settings.ringing = ringing;
+  settings.ringing_reach = ringing_reach_ns * kPicosecondsPerNanosecond / descriptor.spacing_ps;
+  settings.saturation = saturationOf(descriptor);
+  settings.clipping = 0.0;
+  return settings;
+}
+
+std::map<unsigned, PulseResponse> pulseResponses(
+    const std::map<unsigned, WaveformDescriptor>& descriptors, const EchoSettings& settings,
+    std::uint64_t points, const WaveformRunReader& read, const std::string& name) {
+  std::map<unsigned, PulseResponse> responses;
+  if (settings.givesResponse()) {
+    for (const auto& [index, d] : descriptors) responses.emplace(index, givenResponse(settings, d));
+    return responses;
+  }
+  std::map<unsigned, double> width_ns;
+  double usual_ns = 0.0;
+  std::size_t most = 0;
+  for (const auto& [index, estimate] : sampleWaveforms(settings, points, read)) {
+    const std::optional<double> width = estimate.width();
+    if (!width) continue;
+    width_ns[index] = *width * descriptors.at(index).spacing_ps / kPicosecondsPerNanosecond;
+    if (estimate.waveforms() > most) usual_ns = width_ns[index];
+    most = std::max(most, estimate.waveforms());
+  }
+  if (width_ns.empty())
+    throw InputError(name +
+                     ": too few waveforms have a single strong echo to estimate the width of "
+                     "the pulse; state it");
+  for (const auto& [index, d] : descriptors) {
+    const auto own = width_ns.find(index);
+    const double ns = own == width_ns.end() ? usual_ns : own->second;
+    responses.emplace(index,
+                      PulseResponse::gaussian(ns * kPicosecondsPerNanosecond / d.spacing_ps));
+  }
+  return responses;
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <pcl_als/waveform/pulse_echoes.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr std::size_t kRemembered = std::size_t{1} << 20;
+
+}  // namespace
+
+PulseEchoes::PulseEchoes(const std::map<unsigned, PulseResponse>& responses,
+                         const EchoSettings& settings)
+    : responses_(responses), settings_(settings) {}
+
+WaveformDecomposer& PulseEchoes::decomposerOf(unsigned index,
+                                              const WaveformDescriptor& descriptor) {
+  const auto found = decomposers_.find(index);
+  if (found != decomposers_.end()) return found->second;
+  return decomposers_
+      .emplace(index,
+               WaveformDecomposer(responses_.at(index), settings_.decompositionOf(descriptor)))
+      .first->second;
+}
+
+void PulseEchoes::decompose(const Waveform& waveform, const std::vector<double>& locations) {
+  spacing_ = waveform.descriptor.spacing_ps;
+  locations_ = locations;
+  WaveformDecomposer& decomposer = decomposerOf(waveform.reference.descriptor, waveform.descriptor);
+  decomposer.decompose(waveform.counts.data(), waveform.counts.size(), found_);
+  match(kFwhmOfGaussian * spacing_ * decomposer.response().width());
+}
+
+/// Pairs returns and echoes, the nearest first.
+void PulseEchoes::match(double reach) {
+  echo_of_return_.assign(locations_.size(), -1);
+  return_of_echo_.assign(static_cast<std::size_t>(found_.count), -1);
+  for (;;) {
+    double nearest = reach;
+    int best_return = -1, best_echo = -1;
+    for (std::size_t r = 0; r < locations_.size(); ++r) {
+      if (echo_of_return_[r] >= 0) continue;
+      for (int e = 0; e < found_.count; ++e) {
+        const double distance = std::abs(timeOf(e) - locations_[r]);
+        if (returnOf(e) >= 0 || !(distance < nearest)) continue;
+        nearest = distance;
+        best_return = static_cast<int>(r);
+        best_echo = e;
+      }
+    }
+    if (best_return < 0) return;
+    echo_of_return_[static_cast<std::size_t>(best_return)] = best_echo;
+    return_of_echo_[static_cast<std::size_t>(best_echo)] = best_return;
+  }
+}
+
+double PulseEchoes::timeOf(int echo) const {
+  return at(echo).time * spacing_;
+}
+
+double PulseEchoes::energyOf(int echo) const {
+  const WaveformEcho& e = at(echo);
+  return e.amplitude * e.width * kFwhmOfGaussian * spacing_ / kPicosecondsPerNanosecond;
+}
+
+std::size_t PulseEchoes::nearestReturn(int echo) const {
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t r = 0; r < locations_.size(); ++r) {
+    const double distance = std::abs(locations_[r] - timeOf(echo));
+    if (!(distance < least)) continue;
+    least = distance;
+    nearest = r;
+  }
+  return nearest;
+}
+
+double PulseEchoes::intensityRatio(int echo) const {
+  const int other = echoOf(nearestReturn(echo));
+  return other < 0 ? 0.0 : at(echo).amplitude / at(other).amplitude;
+}
+
+EchoAttributes PulseEchoes::attributesOf(int echo, double speed) const {
+  const double scale = spacing_ / kPicosecondsPerNanosecond * kFwhmOfGaussian;
+  const WaveformEcho& e = at(echo);
+  EchoAttributes attributes;
+  attributes.amplitude = static_cast<float>(e.amplitude);
+  attributes.echo_width = static_cast<float>(scale * e.width);
+  attributes.echo_width_std = static_cast<float>(scale * e.width_std);
+  attributes.range_std = static_cast<float>(e.time_std * spacing_ * speed);
+  attributes.saturated = static_cast<std::uint16_t>(e.saturated);
+  attributes.new_echo = returnOf(echo) < 0;
+  return attributes;
+}
+
+std::vector<unsigned> numbersByTime(const std::vector<double>& times) {
+  std::vector<std::size_t> order(times.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&times](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+  std::vector<unsigned> numbers(times.size());
+  for (std::size_t i = 0; i < order.size(); ++i) numbers[order[i]] = static_cast<unsigned>(i + 1);
+  return numbers;
+}
+
+PacketMemory::PacketMemory() : last_(kRemembered, ~std::uint64_t{0}) {}
+
+bool PacketMemory::meets(std::uint64_t offset) {
+  constexpr std::uint64_t kOddFactor = 0x9E3779B97F4A7C15;  // multiplicative hashing
+  std::uint64_t& place = last_[(offset * kOddFactor) >> 44U];
+  const bool met = place == offset;
+  place = offset;
+  return met;
+}
+
+}  // namespace pcl_als
