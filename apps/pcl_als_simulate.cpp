@@ -110,21 +110,25 @@ void declareTruth(CommandLine& line) {
       .in(Group::output);
 }
 
+std::vector<std::string> outputFiles() {
+  std::vector<std::string> files{"strip*.las",  "strip*.laz",   "strip*.wdp",      "trajectory.csv",
+                                 "control.csv", "training.csv", "checkpoints.csv", "truth.json"};
+  for (const char* name : {"camera.json", "images.csv", "measurements.csv", "checkpoints.csv",
+                           "true_images.csv", "true_points.csv", "true_lines.csv"})
+    files.push_back(std::string("images/") + name);
+  return files;
+}
+
 CommandLine declare() {
   CommandLine line("pcl_als_simulate",
                    "simulates an airborne laser scanning block with known system biases.",
                    "-output DIR [-preset NAME] [-noise none|range|realistic] [-bias …] [-error …]",
                    "pcl_als_simulate -output block -preset small -noise range -seed 3 "
                    "-bias boresight_roll=60,range_bias=0.1");
-  std::vector<std::string> files{"strip*.las",  "strip*.laz",   "strip*.wdp",      "trajectory.csv",
-                                 "control.csv", "training.csv", "checkpoints.csv", "truth.json"};
-  for (const char* name : {"camera.json", "images.csv", "measurements.csv", "checkpoints.csv",
-                           "true_images.csv", "true_points.csv", "true_lines.csv"})
-    files.push_back(std::string("images/") + name);
   line.addOutputFolder("output",
                        "folder for strip1.las …, trajectory.csv, control.csv, training.csv, "
                        "checkpoints.csv and truth.json; made if missing",
-                       always(std::move(files)))
+                       always(outputFiles()))
       .needed();
   line.addText(
       "preset",

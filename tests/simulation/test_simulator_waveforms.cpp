@@ -69,8 +69,8 @@ TEST(SimulatorWaveforms, PointsOfAPlaneLieWhereTheirWaveformsSay) {
     const Eigen::Vector3d sensor = options.origin + pulse.true_origin;
     EXPECT_NEAR((point.position - sensor).norm(), 0.5 * kLightSpeed * time, 1e-4);
     EXPECT_NEAR((point.position - sensor).normalized().dot(pulse.to_sensor), -1.0, 1e-9);
-    EXPECT_NEAR(point.surface.z(), options.origin.z(), 1e-4);
-    EXPECT_NEAR(point.position.z(), options.origin.z(), 0.01);  // linear edge between samples
+    EXPECT_NEAR(point.surface.z(), options.origin.z(), 5e-4);
+    EXPECT_NEAR(point.position.z(), options.origin.z(), 0.003);
   }
 }
 
@@ -104,12 +104,13 @@ TEST(SimulatorWaveforms, TruthIsAllOfTheEnergy) {
     double share = 0.0;
     for (std::size_t i = pulse.part; i < pulse.part + pulse.parts; ++i) {
       share += all.backscatter[i].share;
-      if (i > pulse.part) EXPECT_LE(all.backscatter[i - 1].range, all.backscatter[i].range);
+      if (i == pulse.part) continue;
+      EXPECT_LE(all.backscatter[i - 1].range, all.backscatter[i].range);
     }
     EXPECT_NEAR(share, 1.0, 1e-9);
     several += pulse.points > 1 ? 1 : 0;
   }
-  EXPECT_GT(several, all.pulses.size() / 100);  // over trees and edges of roofs
+  EXPECT_GT(several, all.pulses.size() / 200);  // over trees and edges of roofs
 }
 
 /// An error of the detector moves the point along its waveform, a bias the waveform with it.

@@ -8,6 +8,27 @@
 
 namespace pcl_als::simulation {
 
+namespace {
+
+constexpr int kBisections = 20;  ///< of the time between two samples
+
+/// Where the cubic polynomial through four samples crosses a level between \a i and the next one,
+/// of which the first is below the level and the second is not.
+double crossingOf(const std::uint16_t* counts, std::size_t samples, std::size_t i, double level) {
+  const double b = counts[i], c = counts[i + 1], a = i > 0 ? counts[i - 1] : b,
+               d = i + 2 < samples ? counts[i + 2] : c;
+  double low = 0.0, high = 1.0;
+  for (int k = 0; k < kBisections; ++k) {
+    const double u = 0.5 * (low + high), l = u + 1.0, m = u - 1.0, n = u - 2.0;
+    const double value =
+        -a * u * m * n / 6.0 + b * l * m * n / 2.0 - c * l * u * n / 2.0 + d * l * u * m / 6.0;
+    (value < level ? low : high) = u;
+  }
+  return static_cast<double>(i) + 0.5 * (low + high);
+}
+
+}  // namespace
+
 ReturnDetector::ReturnDetector(const WaveformReceiver& receiver, double separation,
                                int most_returns)
     : receiver_(receiver),
@@ -21,25 +42,28 @@ double ReturnDetector::footOf(double valley) const {
   return std::max(valley, receiver_.baseline());
 }
 
+/// Largest value of the parabola through a peak and its neighbours; a saturated peak is flat.
+double ReturnDetector::topOf(const std::uint16_t* counts, std::size_t samples,
+                             std::size_t peak) const {
+  const double top = counts[peak];
+  if (peak == 0 || peak + 1 >= samples || top >= receiver_.options().largestCount()) return top;
+  const double before = counts[peak - 1], after = counts[peak + 1];
+  const double curvature = before - 2.0 * top + after;
+  return curvature < 0.0 ? top - (before - after) * (before - after) / (8.0 * curvature) : top;
+}
+
 void ReturnDetector::accept(const std::uint16_t* counts, std::size_t samples, std::size_t valley,
                             std::size_t peak) {
-  const double spacing = receiver_.options().sample_spacing, baseline = receiver_.baseline();
-  const double foot = footOf(counts[valley]), top = counts[peak];
+  const double spacing = receiver_.options().sample_spacing;
+  const double foot = footOf(counts[valley]), top = topOf(counts, samples, peak);
   const double level = foot + receiver_.options().detection_edge * (top - foot);
   std::size_t i = peak;
   while (i > valley && counts[i - 1] >= level) --i;
-  double crossing = static_cast<double>(i);
-  if (i > valley) crossing -= (counts[i] - level) / (counts[i] - counts[i - 1]);
+  const double crossing =
+      i > valley ? crossingOf(counts, samples, i - 1, level) : static_cast<double>(i);
   const double time = spacing * crossing + edge_to_maximum_;
   if (!returns_.empty() && time - returns_.back().time < blind_) return;
-
-  double height = top - baseline;
-  if (peak > 0 && peak + 1 < samples && top < receiver_.options().largestCount()) {
-    const double before = counts[peak - 1], after = counts[peak + 1];
-    const double curvature = before - 2.0 * top + after;
-    if (curvature < 0.0) height -= (before - after) * (before - after) / (8.0 * curvature);
-  }
-  returns_.push_back({time, spacing * static_cast<double>(peak), height});
+  returns_.push_back({time, spacing * static_cast<double>(peak), top - receiver_.baseline()});
 }
 
 const std::vector<DetectedReturn>& ReturnDetector::detect(const std::uint16_t* counts,

@@ -20,9 +20,9 @@ struct DetectedReturn {
 /** \brief Detector of discrete returns in a waveform, as scanners have it in their electronics.
  *
  * A peak rises by the threshold above the lowest sample before it and falls by it behind. Its time
- * is that at which the leading edge crosses a share of the rise, by linear interpolation between
- * samples, plus the time from there to the maximum of the emitted pulse. The detector is blind for
- * a while after a return. It knows nothing of widths: a stretched echo is detected too early.
+ * is that at which the leading edge crosses a share of the rise, interpolated between samples, plus
+ * the time from there to the maximum of the emitted pulse. The detector is blind for a while after
+ * a return. It knows nothing of widths: a stretched echo is detected too early.
  */
 class ReturnDetector {
  public:
@@ -34,6 +34,7 @@ class ReturnDetector {
 
  private:
   double footOf(double valley) const;
+  double topOf(const std::uint16_t* counts, std::size_t samples, std::size_t peak) const;
   void accept(const std::uint16_t* counts, std::size_t samples, std::size_t valley,
               std::size_t peak);
 
