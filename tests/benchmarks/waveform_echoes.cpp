@@ -21,6 +21,8 @@ using simulation::SimulationOptions;
 
 constexpr double kNearGround = 0.45;  // m
 constexpr double kVegetationShare = 0.05;
+/// Ranges of the surfaces of a pulse that count as one surface, m.
+constexpr double kOneSurface = 0.1;
 
 struct Deviations {
   double sum = 0.0, square = 0.0;
@@ -105,55 +107,80 @@ SimulationOptions oneLine(double height, double length, double density) {
   return options;
 }
 
+/// What is counted in a forest.
+struct ForestCounts {
+  std::size_t pulses = 0, returns = 0, echoes = 0, unexplained = 0, misplaced = 0;
+  std::size_t under = 0, open = 0, open_false = 0;
+  GroundFound discrete, decomposed;
+
+  void add(const DecomposedPulse& p, double width,
+           const std::function<double(const Backscatter&)>& countsOf);
+  void addOpen(const DecomposedPulse& p);
+  void print(const char* name) const;
+};
+
+void ForestCounts::addOpen(const DecomposedPulse& p) {
+  const auto& parts = p.truth.backscatter;
+  if (parts[p.pulse.part + p.pulse.parts - 1].range - parts[p.pulse.part].range > kOneSurface)
+    return;
+  ++open;
+  open_false += p.echoes.size() - 1;
+}
+
+void ForestCounts::add(const DecomposedPulse& p, double width,
+                       const std::function<double(const Backscatter&)>& countsOf) {
+  const Truth truth(p);
+  if (truth.vegetation_share == 0.0) addOpen(p);
+  if (truth.vegetation_share < kVegetationShare) return;
+  ++pulses;
+  returns += p.returns.size();
+  double nearest_return = 1e9, nearest_echo = 1e9;
+  for (const double range : p.returns)
+    if (std::abs(range - truth.ground_range) < std::abs(nearest_return))
+      nearest_return = range - truth.ground_range;
+  for (const FoundEcho& echo : p.echoes) {
+    if (std::isnan(echo.amplitude)) continue;  // a return without an echo
+    ++echoes;
+    const double share = explainedShare(p, echo, width, countsOf);
+    unexplained += share < 0.5 ? 1 : 0;
+    misplaced += share == 0.0 ? 1 : 0;
+    if (std::abs(echo.range - truth.ground_range) < std::abs(nearest_echo))
+      nearest_echo = echo.range - truth.ground_range;
+  }
+  if (truth.ground_share <= 0.0) return;
+  ++under;
+  discrete.add(nearest_return);
+  decomposed.add(nearest_echo);
+}
+
+void ForestCounts::print(const char* name) const {
+  const auto share = [](std::size_t part, std::size_t of) {
+    return static_cast<double>(part) / static_cast<double>(of);
+  };
+  std::printf(
+      "%s: %zu pulses in vegetation, %.2f returns and %.2f echoes each (%+.1f %%); %.2f %% "
+      "of the echoes are twice what the surfaces there return, %.3f %% have none within "
+      "half their width; %zu pulses on one surface with %zu false echoes\n",
+      name, pulses, share(returns, pulses), share(echoes, pulses),
+      100.0 * (share(echoes, returns) - 1.0), 100.0 * share(unexplained, echoes),
+      100.0 * share(misplaced, echoes), open, open_false);
+  discrete.print("returns", under);
+  decomposed.print("echoes", under);
+}
+
 void forest(const char* name, const SimulationOptions& options, const std::filesystem::path& folder,
             const WaveformSettings& settings = {}) {
-  const double width = options.waveform->pulse_width;
   const double counts_per_number = options.waveform->largestCount() / options.waveform->full_scale;
   const double gain = options.scanner.gain * options.lines.front().gain;
   const double extinction = simulation::extinctionPerKilometre(options.atmosphere);
   const auto countsOf = [&](const Backscatter& b) {
     return counts_per_number * simulation::digitalNumber(gain, b.signal, b.range, extinction);
   };
-  std::size_t pulses = 0, returns = 0, echoes = 0, added = 0, unexplained = 0, misplaced = 0;
-  std::size_t under = 0;
-  GroundFound discrete, decomposed;
-  const DecomposedStrip strip =
-      decomposeSimulated(options, folder, settings, [&](const DecomposedPulse& p) {
-        const Truth truth(p);
-        if (truth.vegetation_share < kVegetationShare) return;
-        ++pulses;
-        returns += p.returns.size();
-        double nearest_return = 1e9, nearest_echo = 1e9;
-        for (const double range : p.returns)
-          if (std::abs(range - truth.ground_range) < std::abs(nearest_return))
-            nearest_return = range - truth.ground_range;
-        for (const FoundEcho& echo : p.echoes) {
-          if (std::isnan(echo.amplitude)) continue;  // a return without an echo
-          ++echoes;
-          added += echo.is_new ? 1 : 0;
-          const double share = explainedShare(p, echo, width, countsOf);
-          unexplained += share < 0.5 ? 1 : 0;
-          misplaced += share == 0.0 ? 1 : 0;
-          if (std::abs(echo.range - truth.ground_range) < std::abs(nearest_echo))
-            nearest_echo = echo.range - truth.ground_range;
-        }
-        if (truth.ground_share <= 0.0) return;
-        ++under;
-        discrete.add(nearest_return);
-        decomposed.add(nearest_echo);
-      });
-  std::printf(
-      "%s: %zu pulses in vegetation, %.2f returns and %.2f echoes each (%+.1f %%); %zu "
-      "new; %.2f %% of the echoes explain twice what the surfaces there return, %.3f %% "
-      "have none within half their width\n",
-      name, pulses, static_cast<double>(returns) / static_cast<double>(pulses),
-      static_cast<double>(echoes) / static_cast<double>(pulses),
-      100.0 * (static_cast<double>(echoes) / static_cast<double>(returns) - 1.0), added,
-      100.0 * static_cast<double>(unexplained) / static_cast<double>(echoes),
-      100.0 * static_cast<double>(misplaced) / static_cast<double>(echoes));
-  discrete.print("returns", under);
-  decomposed.print("echoes", under);
-  std::fputs(describe(strip.result).c_str(), stdout);
+  ForestCounts counts;
+  decomposeSimulated(options, folder, settings, [&](const DecomposedPulse& p) {
+    counts.add(p, options.waveform->pulse_width, countsOf);
+  });
+  counts.print(name);
 }
 
 /// Range errors on open ground by the incidence of the beam.
@@ -164,18 +191,17 @@ void slopes(const char* name, const SimulationOptions& options, const std::files
     Deviations discrete, decomposed;
   };
   std::vector<Class> classes{{0.0, 5.0, {}, {}}, {13.0, 17.0, {}, {}}, {28.0, 32.0, {}, {}}};
-  const DecomposedStrip strip =
-      decomposeSimulated(options, folder, settings, [&](const DecomposedPulse& p) {
-        const Truth truth(p);
-        if (p.returns.size() != 1 || p.echoes.size() != 1 || truth.vegetation_share > 0.0) return;
-        if (std::isnan(p.echoes[0].amplitude)) return;
-        const double degrees = std::atan(truth.tangent) / kRadiansPerDegree;
-        for (Class& c : classes) {
-          if (degrees < c.from || degrees >= c.to) continue;
-          c.discrete.add(p.returns[0] - truth.range);
-          c.decomposed.add(p.echoes[0].range - truth.range);
-        }
-      });
+  decomposeSimulated(options, folder, settings, [&](const DecomposedPulse& p) {
+    const Truth truth(p);
+    if (p.returns.size() != 1 || p.echoes.size() != 1 || truth.vegetation_share > 0.0) return;
+    if (std::isnan(p.echoes[0].amplitude)) return;
+    const double degrees = std::atan(truth.tangent) / kRadiansPerDegree;
+    for (Class& c : classes) {
+      if (degrees < c.from || degrees >= c.to) continue;
+      c.discrete.add(p.returns[0] - truth.range);
+      c.decomposed.add(p.echoes[0].range - truth.range);
+    }
+  });
   std::printf("%s\n", name);
   for (const Class& c : classes) {
     std::printf(
@@ -185,7 +211,6 @@ void slopes(const char* name, const SimulationOptions& options, const std::files
         1e3 * c.discrete.rms(), 1e3 * c.decomposed.mean(), 1e3 * c.decomposed.std(),
         1e3 * c.decomposed.rms());
   }
-  std::fputs(describe(strip.result).c_str(), stdout);
 }
 
 void runForests(const std::filesystem::path& folder) {
@@ -201,6 +226,18 @@ void runForests(const std::filesystem::path& folder) {
   options.waveform->noise = 0.001;
   options.waveform->pulse_width = 8.0;
   forest("the same with a pulse of 8 ns", options, folder);
+  // A pulse with a steep rise and a slow decay, 4 ns wide at half maximum.
+  options.waveform->pulse_width = 4.0;
+  for (double t = -10.0; t <= 30.0; t += 0.5) {
+    const double sigma = t < 0.0 ? 1.2 : 2.2;
+    options.waveform->pulse.push_back(std::exp(-0.5 * t * t / (sigma * sigma)));
+  }
+  options.waveform->pulse_spacing = 0.5;
+  WaveformSettings sampled;
+  sampled.pulse = options.waveform->pulse;
+  sampled.pulse_spacing_ns = 0.5;
+  forest("skewed pulse, which the decomposition knows", options, folder, sampled);
+  forest("skewed pulse, taken for a Gaussian", options, folder);
 }
 
 void runSlopes(const std::filesystem::path& folder) {
@@ -210,6 +247,7 @@ void runSlopes(const std::filesystem::path& folder) {
   options.scene.trees = options.scene.buildings = 0.0;
   options.lines.front().height = 1300.0;
   slopes("slopes, divergence of 0.33 mrad", options, folder);
+  options.waveform->rings = 8;
   options.scanner.divergence = 0.5e-3;
   slopes("divergence of 0.5 mrad", options, folder);
   options.scanner.divergence = 1e-3;

@@ -3,6 +3,7 @@
 #include "return_detector.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <pcl_als/simulation/simulated_waveforms.h>
 
@@ -42,20 +43,24 @@ double ReturnDetector::footOf(double valley) const {
   return std::max(valley, receiver_.baseline());
 }
 
-/// Largest value of the parabola through a peak and its neighbours; a saturated peak is flat.
-double ReturnDetector::topOf(const std::uint16_t* counts, std::size_t samples,
-                             std::size_t peak) const {
+/// Maximum of the Gaussian above the foot through a peak and its neighbours; a saturated peak is
+/// flat.
+double ReturnDetector::topOf(const std::uint16_t* counts, std::size_t samples, std::size_t peak,
+                             double foot) const {
   const double top = counts[peak];
   if (peak == 0 || peak + 1 >= samples || top >= receiver_.options().largestCount()) return top;
-  const double before = counts[peak - 1], after = counts[peak + 1];
-  const double curvature = before - 2.0 * top + after;
-  return curvature < 0.0 ? top - (before - after) * (before - after) / (8.0 * curvature) : top;
+  if (counts[peak - 1] <= foot || counts[peak + 1] <= foot) return top;
+  const double before = std::log(counts[peak - 1] - foot), middle = std::log(top - foot),
+               after = std::log(counts[peak + 1] - foot);
+  const double curvature = before - 2.0 * middle + after;
+  if (curvature >= 0.0) return top;
+  return foot + std::exp(middle - (before - after) * (before - after) / (8.0 * curvature));
 }
 
 void ReturnDetector::accept(const std::uint16_t* counts, std::size_t samples, std::size_t valley,
                             std::size_t peak) {
   const double spacing = receiver_.options().sample_spacing;
-  const double foot = footOf(counts[valley]), top = topOf(counts, samples, peak);
+  const double foot = footOf(counts[valley]), top = topOf(counts, samples, peak, foot);
   const double level = foot + receiver_.options().detection_edge * (top - foot);
   std::size_t i = peak;
   while (i > valley && counts[i - 1] >= level) --i;

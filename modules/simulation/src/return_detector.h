@@ -34,7 +34,8 @@ class ReturnDetector {
 
  private:
   double footOf(double valley) const;
-  double topOf(const std::uint16_t* counts, std::size_t samples, std::size_t peak) const;
+  double topOf(const std::uint16_t* counts, std::size_t samples, std::size_t peak,
+               double foot) const;
   void accept(const std::uint16_t* counts, std::size_t samples, std::size_t valley,
               std::size_t peak);
 
