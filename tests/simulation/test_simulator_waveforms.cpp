@@ -75,7 +75,8 @@ TEST(SimulatorWaveforms, PointsOfAPlaneLieWhereTheirWaveformsSay) {
     EXPECT_NEAR(point.position.z(), point.surface.z(), 0.003);
     sum += point.position.z() - options.origin.z();
   }
-  // Cubic polynomials are 1 mm above the edge of a Gaussian with samples at 0.6 standard deviations.
+  // Cubic polynomials are 1 mm above the edge of a Gaussian with samples at 0.6 standard
+  // deviations.
   EXPECT_NEAR(sum / static_cast<double>(all.pulses.size()), 0.001, 0.001);
 }
 
