@@ -3,6 +3,7 @@
 #include <string>
 
 #include <pcl_als/crs/crs.h>
+#include <pcl_als/io/pulse_io.h>
 #include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/simulation_options.h>
 
@@ -71,6 +72,33 @@ void addPointOptions(CommandLine& line) {
   line.addChoice("format", "format of the strips", {"las", "laz"}, "las").in(Group::output);
 }
 
+void declareWaveforms(CommandLine& line) {
+  line.addFlag("waveforms",
+               "record the waveforms of all pulses by sub-rays over their footprint, in strip1.wdp "
+               "… beside the strips; the returns are those that a detector finds in them")
+      .in(Group::output);
+  line.addChoice("waveform_format",
+                 "point format of strips with waveforms: 4 and 5 are LAS 1.3, 9 and 10 LAS 1.4",
+                 {"4", "5", "9", "10"}, "9")
+      .in(Group::output);
+  line.addNumber("sample_spacing", "time between samples", 1.0, {0.05, 100.0, "ns"});
+  line.addWhole("sample_bits", "bits of a sample", 12, {4, 16, {}});
+  line.addNumber("sample_noise",
+                 "standard deviation of a sample as share of the largest that its bits hold", 0.001,
+                 {0.0, 0.2});
+  line.addNumber("pulse_width", "full width at half maximum of the emitted pulse", 4.0,
+                 {0.1, 100.0, "ns"});
+  line.addNumber("pulse_skewness", "skewness of the emitted pulse; 0: Gaussian", 0.0, {0.0, 1.5});
+  line.addInputFile("pulse",
+                    "the emitted pulse by samples: CSV time_ns,value, evenly spaced, with a "
+                    "baseline of zero");
+  for (const char* name : {"waveform_format", "sample_spacing", "sample_bits", "sample_noise",
+                           "pulse_width", "pulse_skewness", "pulse"})
+    line.makeDependent(name, "waveforms");
+  line.exclude({"pulse", "pulse_width"});
+  line.exclude({"pulse", "pulse_skewness"});
+}
+
 /// What is known of each point of a simulation.
 void declareTruth(CommandLine& line) {
   line.addFlag("truth_points",
@@ -82,21 +110,25 @@ void declareTruth(CommandLine& line) {
       .in(Group::output);
 }
 
+std::vector<std::string> outputFiles() {
+  std::vector<std::string> files{"strip*.las",  "strip*.laz",   "strip*.wdp",      "trajectory.csv",
+                                 "control.csv", "training.csv", "checkpoints.csv", "truth.json"};
+  for (const char* name : {"camera.json", "images.csv", "measurements.csv", "checkpoints.csv",
+                           "true_images.csv", "true_points.csv", "true_lines.csv"})
+    files.push_back(std::string("images/") + name);
+  return files;
+}
+
 CommandLine declare() {
   CommandLine line("pcl_als_simulate",
                    "simulates an airborne laser scanning block with known system biases.",
                    "-output DIR [-preset NAME] [-noise none|range|realistic] [-bias …] [-error …]",
                    "pcl_als_simulate -output block -preset small -noise range -seed 3 "
                    "-bias boresight_roll=60,range_bias=0.1");
-  std::vector<std::string> files{"strip*.las",   "strip*.laz",      "trajectory.csv", "control.csv",
-                                 "training.csv", "checkpoints.csv", "truth.json"};
-  for (const char* name : {"camera.json", "images.csv", "measurements.csv", "checkpoints.csv",
-                           "true_images.csv", "true_points.csv", "true_lines.csv"})
-    files.push_back(std::string("images/") + name);
   line.addOutputFolder("output",
                        "folder for strip1.las …, trajectory.csv, control.csv, training.csv, "
                        "checkpoints.csv and truth.json; made if missing",
-                       always(std::move(files)))
+                       always(outputFiles()))
       .needed();
   line.addText(
       "preset",
@@ -137,6 +169,7 @@ CommandLine declare() {
       .in(Group::output);
   declareTruth(line);
   addPointOptions(line);
+  declareWaveforms(line);
   return line;
 }
 
@@ -147,6 +180,21 @@ void setIntensity(const CommandLine& line, SimulationOptions& options) {
   options.scanner.incidence_exponent = line.number("incidence_exponent");
   options.atmosphere.visibility_km = line.number("visibility");
   if (line.has("strip_gains")) options.setGains(line.text("strip_gains"));
+}
+
+simulation::WaveformOptions waveformsFrom(const CommandLine& line) {
+  simulation::WaveformOptions waveform;
+  waveform.sample_spacing = line.number("sample_spacing");
+  waveform.bits = static_cast<int>(line.whole("sample_bits"));
+  waveform.noise = line.number("sample_noise");
+  waveform.pulse_width = line.number("pulse_width");
+  waveform.pulse_skewness = line.number("pulse_skewness");
+  if (line.has("pulse")) {
+    const PulseSamples pulse = readPulse(line.text("pulse"));
+    waveform.pulse = pulse.values;
+    waveform.pulse_spacing = pulse.spacing_ns;
+  }
+  return waveform;
 }
 
 SimulationOptions optionsFrom(const CommandLine& line) {
@@ -172,6 +220,7 @@ SimulationOptions optionsFrom(const CommandLine& line) {
   options.targets = static_cast<int>(line.whole("target_count"));
   options.target_diameter = line.number("target_diameter");
   setIntensity(line, options);
+  if (line.has("waveforms")) options.waveform = waveformsFrom(line);
   options.check();
   return options;
 }
@@ -184,6 +233,7 @@ int simulate(const CommandLine& line) {
   files.bias_columns = line.has("truth_points");
   files.error_columns = line.has("true_surface");
   files.images = line.has("images");
+  files.waveform_format = std::stoi(line.text("waveform_format"));
   files.folder = line.text("output");
   simulateSurvey(options, line.text("noise"), files, line.threads(), progressOf(line));
   return kDone;

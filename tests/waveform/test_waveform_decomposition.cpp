@@ -53,6 +53,31 @@ int singleEchoes(double snr, int waveforms, EchoErrors& errors) {
   return wrong;
 }
 
+/// Noise below a step of the digitizer does not show in the baseline, and samples of an echo have
+/// errors of rounding that the baseline has not.
+TEST(RoundedSamples, HaveFewFalseEchoes) {
+  WaveformGenerator generator(17);
+  generator.baseline = 5.1;
+  generator.noise = 0.25;
+  generator.step = 1.0;
+  WaveformDecomposer decomposer = decomposerFor(kWidth);
+  EchoErrors errors;
+  int wrong = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const TrueEcho truth{generator.uniform(10.0, 200.0), generator.uniform(20.0, 44.0), kWidth};
+    const Decomposition found = decomposed(decomposer, generator.gaussians({truth}));
+    if (found.count == 1)
+      addErrors(found.echo[0], truth, errors);
+    else
+      ++wrong;
+  }
+  EXPECT_LE(wrong, 8);
+  for (int part = 0; part < 3; ++part) {
+    EXPECT_GT(errors.relativeRms()[part], 0.7) << part;
+    EXPECT_LT(errors.relativeRms()[part], 1.1) << part;
+  }
+}
+
 class SignalToNoise : public testing::TestWithParam<double> {};
 
 TEST_P(SignalToNoise, LeavesErrorsOfTheSizeOfTheirStandardDeviations) {

@@ -77,6 +77,13 @@ bool hasCrsRecord(const std::vector<LasVlr>& vlrs, std::uint16_t id) {
   });
 }
 
+bool hasPacketDescriptor(const std::vector<LasVlr>& vlrs) {
+  constexpr std::uint16_t kFirst = 100, kLast = 354;
+  return std::any_of(vlrs.begin(), vlrs.end(), [](const LasVlr& vlr) {
+    return vlr.user_id == kLasSpecUser && vlr.record_id >= kFirst && vlr.record_id <= kLast;
+  });
+}
+
 std::vector<LasVlr> collectVlrs(const LasWriterOptions& options,
                                 const std::vector<LasExtraField>& fields) {
   std::vector<LasVlr> vlrs = detail::lasCrsRecords(options.crs, options.point_format >= 6);
@@ -95,6 +102,9 @@ LasHeader makeHeader(const LasWriterOptions& options, const std::vector<LasVlr>&
   if (options.time_kind == TimeKind::adjusted_standard)
     h.global_encoding |= kLasAdjustedStandardTime;
   if (options.time_offset) h.global_encoding |= kLasTimeOffset;
+  // This class writes no packets: descriptors of them describe those of another file.
+  if (hasPacketDescriptor(vlrs) && LasRecordLayout::of(options.point_format).waveform >= 0)
+    h.global_encoding |= kLasWaveformExternal;
   h.time_offset = options.time_offset.value_or(0);
   // Formats 6-10 have to declare WKT, even where no CRS is known.
   if (hasCrsRecord(vlrs, detail::kWktRecord) ||

@@ -20,80 +20,8 @@
 namespace pcl_als {
 namespace {
 
-using simulation::SimulatedPoint;
 using simulation::SimulationOptions;
 using simulation::Simulator;
-
-using Columns = std::vector<std::vector<double>>;
-
-LasWriterOptions lasOptionsOf(const SimulationOptions& options, std::uint16_t strip,
-                              const StripFileOptions& files) {
-  LasWriterOptions las;
-  las.crs = options.crs;
-  las.offset = options.origin.cwiseQuotient(unitsOfCrs(las.crs).metres()).array().floor();
-  las.time_kind = files.adjusted_time ? TimeKind::adjusted_standard : TimeKind::week_seconds;
-  las.file_source_id = strip;
-  las.system_id = "SIMULATION";
-  las.generating_software = "pcl_als_simulate";
-  LasExtraField reflectance;
-  reflectance.name = "reflectance";
-  reflectance.description = "true, diffuse, at 1064 nm";
-  las.extra_fields.push_back(reflectance);
-  const auto add = [&las](const char* prefix, const char* description) {
-    for (const char* axis : {"x", "y", "z"}) {
-      LasExtraField field;
-      field.name = std::string(prefix) + axis;
-      field.description = description;
-      field.type = LasExtraType::i32;
-      field.scale = 1e-4;
-      las.extra_fields.push_back(field);
-    }
-  };
-  if (files.bias_columns) add("bias_", "written - without systematic errors");
-  if (files.error_columns) add("error_", "written - true, noise included");
-  return las;
-}
-
-/// The scanner channel of the point format has room for four; more are stored in the user data.
-void fill(const std::vector<SimulatedPoint>& points, double time_shift, bool few_channels,
-          PointChunk& chunk) {
-  chunk.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const SimulatedPoint& p = points[i];
-    chunk.x[i] = p.position.x();
-    chunk.y[i] = p.position.y();
-    chunk.z[i] = p.position.z();
-    chunk.gps_time[i] = p.time + time_shift;
-    chunk.intensity[i] = p.intensity;
-    chunk.scan_angle[i] = p.scan_angle;
-    chunk.point_source_id[i] = p.strip;
-    chunk.return_number[i] = p.return_number;
-    chunk.number_of_returns[i] = p.number_of_returns;
-    chunk.classification[i] = p.classification;
-    chunk.flags[i] = static_cast<std::uint8_t>(p.flags | (few_channels ? p.channel << 6U : 0U));
-    // The scanner channel of LAS has two bits.
-    chunk.user_data[i] = few_channels ? std::uint8_t{0} : p.channel;
-    chunk.channel[i] = p.channel;
-  }
-}
-
-/// The extra bytes, in the order of lasOptionsOf().
-Columns columnsOf(const std::vector<SimulatedPoint>& points, const StripFileOptions& files) {
-  Columns columns(1);
-  for (const SimulatedPoint& p : points) columns[0].push_back(p.reflectance);
-  const auto add = [&](const auto& difference) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      columns.emplace_back();
-      for (const SimulatedPoint& p : points) columns.back().push_back(difference(p)[axis]);
-    }
-  };
-  using Vector = Eigen::Vector3d;
-  if (files.bias_columns)
-    add([](const SimulatedPoint& p) -> Vector { return p.position - p.unbiased; });
-  if (files.error_columns)
-    add([](const SimulatedPoint& p) -> Vector { return p.position - p.surface; });
-  return columns;
-}
 
 /// printf of numbers into a line of a text file.
 template <typename... Values>
@@ -211,6 +139,25 @@ nlohmann::ordered_json scannerJson(const SimulationOptions& options) {
   return json;
 }
 
+nlohmann::ordered_json waveformJson(const simulation::WaveformOptions& waveform) {
+  nlohmann::ordered_json json;
+  if (waveform.pulse.empty()) {
+    json["pulse_width_ns"] = waveform.pulse_width;
+    json["pulse_skewness"] = waveform.pulse_skewness;
+  } else {
+    json["pulse"] = waveform.pulse;
+    json["pulse_spacing_ns"] = waveform.pulse_spacing;
+  }
+  json["sample_spacing_ns"] = waveform.sample_spacing;
+  json["bits"] = waveform.bits;
+  json["baseline_counts"] = waveform.baseline * waveform.largestCount();
+  json["noise_counts"] = waveform.noise * waveform.largestCount();
+  json["counts_per_intensity"] = waveform.largestCount() / waveform.full_scale;
+  json["sub_rays"] = 3 * waveform.rings * waveform.rings;
+  json["detection_threshold_std"] = waveform.detection_threshold;
+  return json;
+}
+
 nlohmann::ordered_json stripJson(const SimulationOptions& options, std::size_t i,
                                  const StripSummary& summary) {
   const simulation::PlannedLine& line = options.lines[i];
@@ -241,25 +188,6 @@ nlohmann::ordered_json sceneJson(const Simulator& simulator) {
 }
 
 }  // namespace
-
-StripSummary writeStrip(const Simulator& simulator, std::size_t strip,
-                        const StripFileOptions& options, int threads,
-                        const std::function<void(double share)>& progress) {
-  const std::uint16_t id = simulator.options().lines[strip].id;
-  StripSummary summary{options.nameOf(id), simulator.pulseCount(strip), 0};
-  LasWriter writer(options.folder / summary.file, lasOptionsOf(simulator.options(), id, options));
-  const double shift = options.adjusted_time ? kSimulatedWeek * 604800.0 - 1e9 : 0.0;
-  PointChunk chunk;
-  const double expected = static_cast<double>(summary.pulses) * 1.03;
-  simulator.simulateStrip(strip, threads, [&](const std::vector<SimulatedPoint>& points) {
-    fill(points, shift, simulator.options().scanner.channels <= 4, chunk);
-    writer.append(chunk, columnsOf(points, options));
-    summary.points += points.size();
-    progress(std::min(1.0, static_cast<double>(summary.points) / expected));
-  });
-  writer.finish();
-  return summary;
-}
 
 std::string writeSurveyFiles(const Simulator& simulator, const std::filesystem::path& folder) {
   const auto samples = simulator.trajectory();
@@ -306,6 +234,7 @@ void writeTruth(const Simulator& simulator, const std::string& noise_name,
                        {"visibility_km", s.atmosphere.visibility_km},
                        {"temperature_c", s.atmosphere.temperature_c},
                        {"pressure_kpa", s.atmosphere.pressure_kpa}};
+  if (s.waveform) json["waveform"] = waveformJson(*s.waveform);
   json["scene"] = sceneJson(simulator);
   if (s.targets > 0) json["targets"] = targetsJson(simulator);
   json["tool_version"] = PCL_ALS_VERSION;
@@ -327,8 +256,10 @@ void refuseForeignFiles(const SimulationOptions& options, const StripFileOptions
   for (const char* name :
        {"trajectory.csv", "control.csv", "training.csv", "checkpoints.csv", "truth.json"})
     written.push_back(files.folder / name);
-  for (const simulation::PlannedLine& line : options.lines)
+  for (const simulation::PlannedLine& line : options.lines) {
     written.push_back(files.folder / files.nameOf(line.id));
+    if (options.waveform) written.push_back(files.folder / files.packetsOf(line.id));
+  }
   refuseForeign(written);
 }
 

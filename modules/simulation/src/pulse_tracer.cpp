@@ -18,13 +18,32 @@ constexpr double kAxisEnergy = 0.5, kRingEnergy = 1.0 / 12.0;
 /// Largest tangent of the incidence; of walls it would be without limit.
 constexpr double kSteepestTangent = 3.0;
 
-double tangentOf(double cosine) {
+}  // namespace
+
+double tangentOfIncidence(double cosine) {
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   return sine < kSteepestTangent * cosine ? sine / cosine : kSteepestTangent;
 }
 
-/// Two echoes as one; the range is the signal's mean.
-Echo joined(const Echo& a, const Echo& b) {
+double returnedShare(double cosine, double exponent) {
+  return exponent == 1.0 ? cosine : std::pow(cosine, exponent);
+}
+
+void appendBackscatter(const std::vector<SurfaceHit>& hits, const Eigen::Vector3d& direction,
+                       double energy, double incidence_exponent, std::vector<Backscatter>& parts) {
+  for (const SurfaceHit& hit : hits) {
+    const double share = energy * hit.opacity;
+    const bool leaves = hit.cover == LandCover::tree;
+    const double cosine = std::abs(hit.normal.dot(direction));
+    const double signal = share * hit.reflectance *
+                          (leaves ? kFoliageCosine : returnedShare(cosine, incidence_exponent));
+    parts.push_back({hit.range, share, signal, hit.reflectance,
+                     leaves ? 0.0 : tangentOfIncidence(cosine), hit.cover});
+    energy -= share;
+  }
+}
+
+Echo joinedEchoes(const Echo& a, const Echo& b) {
   Echo sum = a.signal >= b.signal ? a : b;  // keeps the cover of the stronger
   sum.share = a.share + b.share;
   sum.signal = a.signal + b.signal;
@@ -37,24 +56,12 @@ Echo joined(const Echo& a, const Echo& b) {
   return sum;
 }
 
-}  // namespace
-
-/// Energy returned by a surface over that at normal incidence.
-double PulseTracer::returned(double cosine) const {
-  const double exponent = scanner_.incidence_exponent;
-  return exponent == 1.0 ? cosine : std::pow(cosine, exponent);
+Echo echoOf(const Backscatter& part) {
+  return {part.range, part.share, part.signal, 0.0, part.reflectance, part.tangent, part.cover};
 }
 
 void PulseTracer::addParts(const Eigen::Vector3d& direction, double energy) {
-  for (const SurfaceHit& hit : hits_) {
-    const double share = energy * hit.opacity;
-    const bool leaves = hit.cover == LandCover::tree;
-    const double cosine = std::abs(hit.normal.dot(direction));
-    const double signal = share * hit.reflectance * (leaves ? kFoliageCosine : returned(cosine));
-    parts_.push_back(
-        {hit.range, share, signal, hit.reflectance, leaves ? 0.0 : tangentOf(cosine), hit.cover});
-    energy -= share;
-  }
+  appendBackscatter(hits_, direction, energy, scanner_.incidence_exponent, parts_);
 }
 
 /// The ring of six rays on the 1/e^2 circle of the beam.
@@ -81,8 +88,8 @@ bool PulseTracer::formOpenGroundEcho(const Eigen::Vector3d& origin,
   Echo& echo = echoes_.emplace_back();
   echo.range = hit.range;
   echo.share = 1.0;
-  echo.signal = hit.reflectance * returned(cosine);
-  echo.tangent = tangentOf(cosine);
+  echo.signal = hit.reflectance * returnedShare(cosine, scanner_.incidence_exponent);
+  echo.tangent = tangentOfIncidence(cosine);
   echo.spread = 0.25 * scanner_.divergence * hit.range * echo.tangent;
   echo.reflectance = hit.reflectance;
   echo.cover = hit.cover;
@@ -92,11 +99,10 @@ bool PulseTracer::formOpenGroundEcho(const Eigen::Vector3d& origin,
 /// Greedy from the nearest part: what lies within the separation of an echo's start belongs to it.
 void PulseTracer::formEchoes() {
   std::stable_sort(parts_.begin(), parts_.end(),
-                   [](const Part& a, const Part& b) { return a.range < b.range; });
+                   [](const Backscatter& a, const Backscatter& b) { return a.range < b.range; });
   double start = 0.0;
-  for (const Part& part : parts_) {
-    const Echo echo = {part.range,       part.share,   part.signal, 0.0,
-                       part.reflectance, part.tangent, part.cover};
+  for (const Backscatter& part : parts_) {
+    const Echo echo = echoOf(part);
     if (echoes_.empty() || part.range - start >= scanner_.return_separation) {
       echoes_.push_back(echo);
       start = part.range;
@@ -104,7 +110,7 @@ void PulseTracer::formEchoes() {
     }
     Echo& last = echoes_.back();
     const Echo first = last;
-    last = joined(first, echo);
+    last = joinedEchoes(first, echo);
     if (footprint_) continue;
     last.range = start;  // the point lies on the surface that was met first
     last.cover = first.cover;
@@ -117,7 +123,7 @@ void PulseTracer::mergeCloseEchoes() {
       ++i;
       continue;
     }
-    echoes_[i - 1] = joined(echoes_[i - 1], echoes_[i]);
+    echoes_[i - 1] = joinedEchoes(echoes_[i - 1], echoes_[i]);
     echoes_.erase(echoes_.begin() + static_cast<std::ptrdiff_t>(i));
     if (i > 1) --i;  // the joint range has moved: look at the pair before again
   }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/simulation/backscatter.h>
 #include <pcl_als/simulation/scene.h>
 #include <pcl_als/simulation/simulation_options.h>
 
@@ -21,6 +22,19 @@ struct Echo {
   double tangent = 0.0;      ///< of the incidence on surfaces (leaves: 0), weighted by signal
   LandCover cover = LandCover::grass;  ///< of the largest part of the signal
 };
+
+/// Tangent of the incidence from its cosine, at most 3: of walls it would be without limit.
+double tangentOfIncidence(double cosine);
+/// Energy returned by a surface over that at normal incidence.
+double returnedShare(double cosine, double exponent);
+/// Appends what the surfaces along a ray with this share of the pulse's energy send back.
+void appendBackscatter(const std::vector<SurfaceHit>& hits, const Eigen::Vector3d& direction,
+                       double energy, double incidence_exponent, std::vector<Backscatter>& parts);
+
+/// Sum of two echoes; the range is the signal's mean, the cover that of the stronger one.
+Echo joinedEchoes(const Echo& a, const Echo& b);
+/// A part as an echo without spread.
+Echo echoOf(const Backscatter& part);
 
 /** \brief Turns the surfaces under a pulse into returns.
  *
@@ -39,11 +53,6 @@ class PulseTracer {
   const std::vector<Echo>& trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
 
  private:
-  struct Part {
-    double range, share, signal, reflectance, tangent;
-    LandCover cover;
-  };
-  double returned(double cosine) const;
   void addParts(const Eigen::Vector3d& direction, double energy);
   void addRing(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
   bool formOpenGroundEcho(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
@@ -54,7 +63,7 @@ class PulseTracer {
   const ScannerOptions& scanner_;
   bool footprint_;
   std::vector<SurfaceHit> hits_;
-  std::vector<Part> parts_;
+  std::vector<Backscatter> parts_;
   std::vector<Echo> echoes_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace pcl_als::detail {
 namespace {
@@ -14,6 +15,8 @@ constexpr double kKernelShare = 0.1;
 constexpr double kScreening = 0.6;
 /// A width differs from that of the response if by this many standard deviations.
 constexpr double kWiderBy = 2.0;
+/// Least variance of whole numbers: 1/12 of rounding and 1/12 of noise that a baseline may hide.
+constexpr double kRoundedVariance = 1.0 / 6.0;
 /// Score of a split, squared, above which it is tried.
 constexpr double kSplitScore = 4.5;
 /// Echoes overlap if closer than this many widths.
@@ -22,6 +25,15 @@ constexpr double kOverlap = 4.0;
 constexpr double kMergeReach = 3.5;
 constexpr double kEchoPenalty = 4.0, kSplitPenalty = 2.9;
 constexpr double kReferenceSamples = 64.0, kLeastSamples = 16.0;
+
+bool areWhole(const double* counts, int samples) {
+  constexpr double kLargest = 1e15;
+  for (int i = 0; i < samples; ++i) {
+    if (!(std::abs(counts[i]) < kLargest)) return false;
+    if (static_cast<double>(static_cast<std::int64_t>(counts[i])) != counts[i]) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -114,12 +126,18 @@ FitResult EchoSearch::adjust(EchoModel& model, double noise) {
 }
 
 double EchoSearch::criterion(const EchoModel& model, const FitResult& result) const {
-  return result.used * std::log(std::max(result.sum, 1e-300) / result.used) +
-         penalties_.echo * model.count + penalties_.width * model.freeWidths();
+  // Twice the negative logarithm of the likelihood, but for a constant, with the variance that is
+  // most likely among those that are not below the least one.
+  const double mean = std::max(result.sum, 1e-300) / result.used;
+  const double misfit = mean < least_variance_
+                            ? std::log(least_variance_) + mean / least_variance_ - 1.0
+                            : std::log(mean);
+  return result.used * misfit + penalties_.echo * model.count +
+         penalties_.width * model.freeWidths();
 }
 
 double EchoSearch::variance() const {
-  return result_.sum / std::max(1, result_.used - fit_.size());
+  return std::max(least_variance_, result_.sum / std::max(1, result_.used - fit_.size()));
 }
 
 /// Takes a model that is better than the present one.
@@ -364,6 +382,7 @@ const EchoModel& EchoSearch::search(const double* counts, const signed char* bou
   iterations_ = 0;
   if (penalties_of_ != samples) penalties_ = penaltiesFor(settings_.false_echoes, samples);
   penalties_of_ = samples;
+  least_variance_ = areWhole(counts, samples) ? kRoundedVariance : 0.0;
   fit_.setSamples(counts, bound, samples);
   if (!firstEcho(counts, samples)) {
     noise_ = std::sqrt(variance());

@@ -68,6 +68,7 @@ class EchoSearch {
   FitResult result_;
   Penalties penalties_;
   double criterion_ = 0.0, noise_ = 0.0;
+  double least_variance_ = 0.0;  ///< of a sample
   int samples_ = 0, penalties_of_ = 0, iterations_ = 0;
   std::vector<double> kernel_;  ///< of the matched filter
   int kernel_first_ = 0;        ///< sample of its first value, from the time of the echo

@@ -21,9 +21,14 @@ struct StripFileOptions {
   bool bias_columns = false;   ///< extra bytes with the effect of the biases
   bool error_columns = false;  ///< extra bytes with the whole error, noise included
   bool images = false;         ///< images of the block, in the folder images
+  int waveform_format = 9;     ///< point format of strips with waveforms: 4, 5, 9 or 10
 
   std::string nameOf(std::uint16_t strip) const {
     return "strip" + std::to_string(strip) + (compressed ? ".laz" : ".las");
+  }
+  /// The waveforms of a strip.
+  std::string packetsOf(std::uint16_t strip) const {
+    return "strip" + std::to_string(strip) + ".wdp";
   }
 };
 
@@ -36,7 +41,8 @@ struct StripSummary {
 /// GPS week of the simulated mission (July 2009, as the paper's).
 inline constexpr int kSimulatedWeek = 1540;
 
-/// Simulates one strip straight into its file (LAS 1.4, point format 6, 1 mm).
+/// Simulates one strip straight into its file (LAS 1.4, point format 6, 1 mm), and its waveforms
+/// into the file of StripFileOptions::packetsOf() if the simulator has them.
 StripSummary writeStrip(const simulation::Simulator& simulator, std::size_t strip,
                         const StripFileOptions& options, int threads,
                         const std::function<void(double share)>& progress);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@
 #include <pcl_als/simulation/error_process.h>
 #include <pcl_als/simulation/error_sources.h>
 #include <pcl_als/simulation/scanner_options.h>
+#include <pcl_als/simulation/waveform_options.h>
 
 namespace pcl_als::simulation {
 
@@ -98,6 +100,7 @@ struct SimulationOptions {
   ErrorSources errors;
   NoiseOptions noise;
   ScannerOptions scanner;
+  std::optional<WaveformOptions> waveform;  ///< the scanner records waveforms
   AtmosphereOptions atmosphere;
   SceneOptions scene;
   std::vector<PlannedLine> lines;

@@ -12,26 +12,11 @@
 
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/simulation/scene.h>
+#include <pcl_als/simulation/simulated_point.h>
+#include <pcl_als/simulation/simulated_waveforms.h>
 #include <pcl_als/simulation/simulation_options.h>
 
 namespace pcl_als::simulation {
-
-/// One return with its truth. Positions in metres, ground frame.
-struct SimulatedPoint {
-  Eigen::Vector3d position;  ///< as written: measurements, assumed parameters, written trajectory
-  /// The same, with the same random errors, without biases and error sources.
-  Eigen::Vector3d unbiased;
-  Eigen::Vector3d surface;   ///< position on the surface: no noise, no bias
-  double time = 0.0;         ///< GPS seconds of week
-  float scan_angle = 0.0F;   ///< degrees from the vertical, right of flight positive (as LAS)
-  float reflectance = 0.0F;  ///< truth, 0 … 1
-  std::uint16_t intensity = 0;
-  std::uint16_t strip = 0;
-  std::uint8_t return_number = 1, number_of_returns = 1;
-  std::uint8_t classification = 0;  ///< ASPRS: 2 ground, 5 vegetation, 6 building, 11 road
-  std::uint8_t flags = 0;           ///< PointFlag: scan direction, edge of flight line
-  std::uint8_t channel = 0;         ///< of the scanner
-};
 
 /// A place of known land cover, ground frame.
 struct LandCoverSite {
@@ -57,6 +42,7 @@ struct LandCoverSite {
 class Simulator {
  public:
   using Sink = std::function<void(const std::vector<SimulatedPoint>& points)>;
+  using WaveformSink = std::function<void(const SimulatedWaveforms& waveforms)>;
 
   /// Builds the scene and simulates the flight. UsageError for impossible options.
   explicit Simulator(const SimulationOptions& options);
@@ -71,6 +57,19 @@ class Simulator {
   /// chunks of 16384 pulses.
   void simulateStrip(std::size_t strip, int threads, const Sink& sink) const;
   std::vector<SimulatedPoint> strip(std::size_t strip, int threads = 0) const;
+
+  /** \brief Points of one line with their waveforms, if options().waveform is set (UsageError
+   * otherwise).
+   *
+   * The returns are those that the detector of discrete returns finds in the waveforms. A pulse
+   * without any is left out. Errors of the range that the detector makes (range walk, incidence)
+   * are in the locations of the points, so that they do not move the waveform. The range noise of
+   * NoiseOptions is one value for each pulse, the intensity noise is that of its energy.
+   * \param truth with the backscatter of every pulse, which needs some 10 kB for each
+   * Memory: a few chunks of 1024 pulses.
+   */
+  void simulateWaveforms(std::size_t strip, int threads, const WaveformSink& sink,
+                         bool truth = false) const;
 
   /// All lines in order of time, with the GNSS/INS errors as delivered, or without.
   std::vector<TrajectorySample> trajectory() const;
