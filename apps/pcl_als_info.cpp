@@ -7,6 +7,7 @@
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/io/dataset_inventory.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/flight_assessment.h>
 #include <pcl_als/processing/strip_inventory.h>
 #include <pcl_als/processing/trajectory_loading.h>

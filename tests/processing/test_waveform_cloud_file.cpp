@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/filters/waveform_decomposition.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/waveform_job.h>
 
 #include "test_files.h"

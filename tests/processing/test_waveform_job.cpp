@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/waveform_job.h>
 #include <pcl_als/waveform/waveform_reader.h>
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/waveform/waveform_provider.h>
 
 namespace pcl_als {

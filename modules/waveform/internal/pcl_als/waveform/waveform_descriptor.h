@@ -9,9 +9,10 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/las/las_file.h>
-
 namespace pcl_als {
+
+class LasFile;
+struct LasRecordLayout;
 
 /// How the samples of a waveform packet are stored (LAS 1.4 R15, table "Waveform Packet Descriptor
 /// User Defined Record").

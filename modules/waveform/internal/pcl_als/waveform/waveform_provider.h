@@ -13,6 +13,8 @@
 
 namespace pcl_als {
 
+class LasFile;
+
 /** \brief The waveforms of the points of a cloud: point i of the cloud is point i of the provider.
  *
  * Directions of references are in metres per picosecond. Const member functions may be called by

@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/las/las_file.h>
 #include <pcl_als/waveform/waveform_descriptor.h>
 
 namespace pcl_als {
+
+class LasFile;
 
 /// The digitised waveform of a point.
 struct Waveform {
