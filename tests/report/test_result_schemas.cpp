@@ -13,6 +13,8 @@
 #include <pcl_als/io/json_text.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/report/accuracy_report.h>
+#include <pcl_als/report/alignment_report.h>
+#include <pcl_als/report/intensity_report.h>
 #include <pcl_als/report/quality_report.h>
 
 #include "file_bytes.h"
@@ -24,10 +26,10 @@ namespace pcl_als {
 namespace {
 
 const std::vector<FieldTable>& results() {
-  static const std::vector<FieldTable> all = {calibrationFields(), qualityFields(),
-                                              accuracyFields(),
+  static const std::vector<FieldTable> all = {
+      calibrationFields(), qualityFields(), accuracyFields(), intensityFields(), icpatchFields(),
 #ifdef PCL_ALS_HAVE_CERES
-                                              orientationFields()
+      orientationFields()
 #endif
   };
   return all;

@@ -12,6 +12,8 @@
 
 namespace pcl_als {
 
+class FieldTable;
+
 /// Source and target of an alignment.
 struct AlignedStrips {
   std::string source, target;
@@ -22,7 +24,8 @@ struct AlignedStrips {
 /// Table for the terminal: XT, YT, ZT (m), omega, phi, kappa (deg) and the fit of the strips.
 std::string alignmentTable(const PatchAlignmentResult& result);
 
-/// The result as JSON (module registration's README has the format).
+/// The description of the result as JSON.
+const FieldTable& icpatchFields();
 std::string alignmentJson(const PatchAlignmentResult& result, const AlignedStrips& strips);
 /// Writes alignmentJson() through AtomicFile.
 void writeAlignment(const std::filesystem::path& path, const PatchAlignmentResult& result,
