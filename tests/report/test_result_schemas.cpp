@@ -14,7 +14,10 @@
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/report/accuracy_report.h>
 #include <pcl_als/report/alignment_report.h>
+#include <pcl_als/report/history_report.h>
 #include <pcl_als/report/intensity_report.h>
+#include <pcl_als/report/mounting_report.h>
+#include <pcl_als/report/plan_report.h>
 #include <pcl_als/report/quality_report.h>
 
 #include "file_bytes.h"
@@ -27,7 +30,8 @@ namespace {
 
 const std::vector<FieldTable>& results() {
   static const std::vector<FieldTable> all = {
-      calibrationFields(), qualityFields(), accuracyFields(), intensityFields(), icpatchFields(),
+      calibrationFields(), qualityFields(), accuracyFields(),       intensityFields(),
+      icpatchFields(),     planFields(),    mountingReportFields(), historyFields(),
 #ifdef PCL_ALS_HAVE_CERES
       orientationFields()
 #endif

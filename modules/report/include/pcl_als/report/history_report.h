@@ -11,6 +11,8 @@
 
 namespace pcl_als {
 
+class FieldTable;
+
 /// The content of history.json.
 struct HistoryReport {
   CalibrationHistory history;
@@ -24,8 +26,9 @@ std::vector<std::string> historyFindings(const CalibrationHistory& history);
 
 /// The tables that the tool prints.
 std::string historyText(const HistoryReport& report);
-/// The text of history.json; its part "instrument" has the form of that of calibration.json.
+/// The text of history.json, and its description.
 std::string historyJson(const HistoryReport& report);
+const FieldTable& historyFields();
 void writeHistory(const std::filesystem::path& path, const HistoryReport& report);
 
 /// report.html with a control chart of each parameter, report.md and tables as CSV.

@@ -12,6 +12,8 @@
 
 namespace pcl_als {
 
+class FieldTable;
+
 /// What is known of the mounting with which the points of a calibration were computed.
 struct MountingInput {
   MountingConvention convention;
@@ -42,8 +44,9 @@ MountingReport reportMounting(const CalibrationResult& calibration, const std::s
 std::string mountingText(const MountingReport& report);
 /// One line for each documented convention.
 std::string conventionsText();
-/// The text of mounting.json; angles in the unit of the convention, lengths in metres.
+/// The text of mounting.json, and its description.
 std::string mountingJson(const MountingReport& report);
+const FieldTable& mountingReportFields();
 void writeMounting(const std::filesystem::path& path, const MountingReport& report);
 
 }  // namespace pcl_als
