@@ -16,6 +16,7 @@
 #include <pcl_als/report/alignment_report.h>
 #include <pcl_als/report/history_report.h>
 #include <pcl_als/report/intensity_report.h>
+#include <pcl_als/report/inventory_report.h>
 #include <pcl_als/report/mounting_report.h>
 #include <pcl_als/report/plan_report.h>
 #include <pcl_als/report/quality_report.h>
@@ -30,8 +31,9 @@ namespace {
 
 const std::vector<FieldTable>& results() {
   static const std::vector<FieldTable> all = {
-      calibrationFields(), qualityFields(), accuracyFields(),       intensityFields(),
-      icpatchFields(),     planFields(),    mountingReportFields(), historyFields(),
+      calibrationFields(),    qualityFields(), accuracyFields(),
+      intensityFields(),      icpatchFields(), planFields(),
+      mountingReportFields(), historyFields(), inventoryFields(),
 #ifdef PCL_ALS_HAVE_CERES
       orientationFields()
 #endif
