@@ -18,13 +18,14 @@ using namespace field;
 struct Scaled {
   RunningStatistics values;
   double scale = 1.0;
+  double ratio() const { return scale * varianceToMean(values); }
 };
 
 /// What the correction did to some points.
 struct Change {
   Scaled before, after;
+  std::string name;  ///< of the interval of slopes, the class or the strip
   std::optional<double> from_slope, to_slope;
-  std::string strip;
   int code = 0;  ///< class
   std::vector<Change> slopes;
   std::size_t bin_width = 1;
@@ -43,7 +44,7 @@ const Fields<Change>& intensityChangeFields() {
       {{"points", [](const S& s) { return s.values.count(); }, "Number of points"},
        {"mean", [](const S& s) { return s.values.mean(); }, "Mean"},
        {"std", [](const S& s) { return s.values.standardDeviation(); }, "Standard deviation"},
-       {"variance_to_mean", [](const S& s) { return s.scale * varianceToMean(s.values); },
+       {"variance_to_mean", &S::ratio,
         "Variance over mean; after the correction of values with the mean before"}});
   static const Fields<Change> fields("change", "Intensities before and after the correction.",
                                      {{"before", &Change::before, statistics, "Before"},
@@ -65,6 +66,7 @@ std::vector<Change> slopesOf(const std::function<BeforeAfter(std::size_t)>& of, 
   for (std::size_t bin = 0; bin <= IntensityStatistics::kSlopeBins; ++bin) {
     Change change(of(bin), scale);
     if (!change.any()) continue;
+    change.name = slopeName(bin);
     if (bin < IntensityStatistics::kSlopeBins) {
       change.from_slope = IntensityStatistics::kSlopeStep * static_cast<double>(bin);
       change.to_slope = *change.from_slope + IntensityStatistics::kSlopeStep;
@@ -81,6 +83,7 @@ std::vector<Change> classesOf(const IntensityReport& report) {
   for (int code = 0; code < 256; ++code) {
     Change change(statistics.classOf(static_cast<std::uint8_t>(code)), scale);
     change.code = code;
+    change.name = className(code);
     if (change.any()) classes.push_back(std::move(change));
   }
   return classes;
@@ -106,7 +109,7 @@ std::vector<Change> stripsOf(const IntensityReport& report) {
   for (std::size_t i = 0; i < statistics.strips(); ++i) {
     const double scale = meanScale(statistics.strip(i));
     Change strip(statistics.strip(i), scale);
-    strip.strip = report.result->run->strips()[i];
+    strip.name = report.result->run->strips()[i];
     strip.slopes = slopesOf([&](std::size_t b) { return statistics.stripSlope(i, b); }, scale);
     setHistogram(report.result->outcome.histograms[i], strip);
     strips.push_back(std::move(strip));
@@ -114,30 +117,29 @@ std::vector<Change> stripsOf(const IntensityReport& report) {
   return strips;
 }
 
-/// Points, means, standard deviations, variance-to-mean ratios, change.
-constexpr const char* kPairHeader =
-    "points,mean_before,std_before,mean_after,std_after,variance_to_mean_before,"
-    "variance_to_mean_after,change_percent\n";
+std::vector<Change> allSlopes(const IntensityReport& report) {
+  const IntensityStatistics& s = report.result->outcome.statistics;
+  return slopesOf([&s](std::size_t bin) { return s.slope(bin); }, meanScale(s.all()));
+}
 
-/// A table in CSV: a name, then figures before and after.
-class IntensityTable {
- public:
-  explicit IntensityTable(const char* first) {
-    csv_ << first << ',' << kPairHeader << std::setprecision(6);
+/// A table of figures before and after, by name.
+std::string changesCsv(const char* first, const std::vector<Change>& changes) {
+  std::ostringstream csv;
+  csv << first
+      << ",points,mean_before,std_before,mean_after,std_after,variance_to_mean_before,"
+         "variance_to_mean_after,change_percent\n"
+      << std::setprecision(6);
+  for (const Change& c : changes) {
+    if (!c.any()) continue;
+    const double before = c.before.ratio(), after = c.after.ratio();
+    csv << c.name << ',' << c.before.values.count();
+    for (const RunningStatistics* s : {&c.before.values, &c.after.values})
+      csv << ',' << s->mean() << ',' << s->standardDeviation();
+    csv << ',' << before << ',' << after << ','
+        << (before > 0.0 ? 100.0 * (after / before - 1.0) : 0.0) << '\n';
   }
-  void add(const std::string& name, const BeforeAfter& pair, double scale) {
-    if (pair.before.count() == 0) return;
-    const double before = varianceToMean(pair.before), after = scale * varianceToMean(pair.after);
-    csv_ << name << ',' << pair.before.count() << ',' << pair.before.mean() << ','
-         << pair.before.standardDeviation() << ',' << pair.after.mean() << ','
-         << pair.after.standardDeviation() << ',' << before << ',' << after << ','
-         << (before > 0.0 ? 100.0 * (after / before - 1.0) : 0.0) << '\n';
-  }
-  std::string text() const { return csv_.str(); }
-
- private:
-  std::ostringstream csv_;
-};
+  return csv.str();
+}
 
 std::string histogramsCsv(const IntensityReport& report) {
   std::ostringstream csv;
@@ -166,17 +168,13 @@ const Fields<IntensityReport>& intensityEffectFields() {
                                          {"after", &Change::histogram_after, ""}});
   static const Fields<Change> strip(
       "strip", "Points of one strip.",
-      {{"strip", &Change::strip, "Name of the strip"},
+      {{"strip", &Change::name, "Name of the strip"},
        F::all(kSameObject, intensityChangeFields()),
        {"slopes", &Change::slopes, intensitySlopeFields(), "By slope"},
        {"histogram", kSameObject, histogram, "By intensity"}});
   const auto all = [](const IntensityReport& r) {
     const BeforeAfter points = r.result->outcome.statistics.all();
     return Change(points, meanScale(points));
-  };
-  const auto slopes = [](const IntensityReport& r) {
-    const IntensityStatistics& s = r.result->outcome.statistics;
-    return slopesOf([&s](std::size_t bin) { return s.slope(bin); }, meanScale(s.all()));
   };
   static const Fields<IntensityReport> fields(
       "report", "Effect of the correction.",
@@ -186,7 +184,7 @@ const Fields<IntensityReport>& intensityEffectFields() {
            "the mean before of all points, under strips to that of the strip",
            ""),
        {"all", all, intensityChangeFields(), "All points"},
-       {"slopes", slopes, intensitySlopeFields(), "By slope"},
+       {"slopes", allSlopes, intensitySlopeFields(), "By slope"},
        {"classes", classesOf, class_of, "By class"},
        {"strips", stripsOf, strip, "By strip"}});
   return fields;
@@ -208,19 +206,9 @@ void writeIntensityTables(const std::filesystem::path& folder, const IntensityRe
   std::filesystem::create_directories(folder, error);
   if (!std::filesystem::is_directory(folder))
     throw InputError(folder.string() + ": cannot make this folder");
-  const IntensityStatistics& statistics = report.result->outcome.statistics;
-  const double scale = meanScale(statistics.all());
-  IntensityTable slopes("slope_deg"), classes("class"), strips("strip");
-  for (std::size_t bin = 0; bin <= IntensityStatistics::kSlopeBins; ++bin)
-    slopes.add(slopeName(bin), statistics.slope(bin), scale);
-  for (int code = 0; code < 256; ++code)
-    classes.add(className(code), statistics.classOf(static_cast<std::uint8_t>(code)), scale);
-  for (std::size_t i = 0; i < statistics.strips(); ++i)
-    strips.add(report.result->run->strips()[i], statistics.strip(i),
-               meanScale(statistics.strip(i)));
-  writeFile(folder / "slopes.csv", slopes.text());
-  writeFile(folder / "classes.csv", classes.text());
-  writeFile(folder / "strips.csv", strips.text());
+  writeFile(folder / "slopes.csv", changesCsv("slope_deg", allSlopes(report)));
+  writeFile(folder / "classes.csv", changesCsv("class", classesOf(report)));
+  writeFile(folder / "strips.csv", changesCsv("strip", stripsOf(report)));
   writeFile(folder / "histograms.csv", histogramsCsv(report));
 }
 
