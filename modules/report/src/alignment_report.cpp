@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cstdio>
 
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/fields.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/json_text.h>
@@ -239,11 +238,6 @@ const FieldTable& icpatchFields() {
 std::string alignmentJson(const Result& result, const AlignedStrips& strips) {
   const AlignmentReport report{&result, &strips};
   return jsonText(icpatchFields().write(&report));
-}
-
-void writeAlignment(const std::filesystem::path& path, const Result& result,
-                    const AlignedStrips& strips) {
-  writeFile(path, alignmentJson(result, strips));
 }
 
 }  // namespace pcl_als

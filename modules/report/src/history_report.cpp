@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/common/parameter_text.h>
@@ -288,10 +287,6 @@ const FieldTable& historyFields() {
 
 std::string historyJson(const HistoryReport& report) {
   return jsonText(historyFields().write(&report));
-}
-
-void writeHistory(const std::filesystem::path& path, const HistoryReport& report) {
-  writeFile(path, historyJson(report));
 }
 
 }  // namespace pcl_als

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/fields.h>
 #include <pcl_als/common/input_file.h>
@@ -260,10 +259,6 @@ return fields;
 
 std::string intensityJson(const Report& report) {
   return jsonText(intensityFields().write(&report));
-}
-
-void writeIntensityJson(const std::filesystem::path& path, const Report& report) {
-  writeFile(path, intensityJson(report));
 }
 
 StoredRadiometry readIntensityJson(const std::filesystem::path& path) {

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/parameter_text.h>
 #include <pcl_als/io/json_text.h>
 #include <pcl_als/io/parameter_fields.h>
@@ -271,10 +270,6 @@ const FieldTable& mountingReportFields() {
 
 std::string mountingJson(const MountingReport& report) {
   return jsonText(mountingReportFields().write(&report));
-}
-
-void writeMounting(const std::filesystem::path& path, const MountingReport& report) {
-  writeFile(path, mountingJson(report));
 }
 
 }  // namespace pcl_als

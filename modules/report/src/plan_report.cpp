@@ -4,7 +4,6 @@
 #include <iomanip>
 #include <sstream>
 
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/parameter_text.h>
 #include <pcl_als/io/json_text.h>
 #include <pcl_als/io/parameter_fields.h>
@@ -198,11 +197,6 @@ const FieldTable& planFields() {
 std::string planJson(const FlightPlanResult& result, const std::vector<std::string>& inputs) {
   const PlanReport report{&result, &inputs};
   return jsonText(planFields().write(&report));
-}
-
-void writePlan(const std::filesystem::path& path, const FlightPlanResult& result,
-               const std::vector<std::string>& inputs) {
-  writeFile(path, planJson(result, inputs));
 }
 
 std::string notDetermined(const CalibrationResult& expected) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -27,8 +26,5 @@ std::string alignmentTable(const PatchAlignmentResult& result);
 /// The description of the result as JSON.
 const FieldTable& icpatchFields();
 std::string alignmentJson(const PatchAlignmentResult& result, const AlignedStrips& strips);
-/// Writes alignmentJson() through AtomicFile.
-void writeAlignment(const std::filesystem::path& path, const PatchAlignmentResult& result,
-                    const AlignedStrips& strips);
 
 }  // namespace pcl_als

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,7 +28,6 @@ std::string historyText(const HistoryReport& report);
 /// The text of history.json, and its description.
 std::string historyJson(const HistoryReport& report);
 const FieldTable& historyFields();
-void writeHistory(const std::filesystem::path& path, const HistoryReport& report);
 
 /// report.html with a control chart of each parameter, report.md and tables as CSV.
 void writeHistoryPage(const ReportOrigin& origin, const HistoryReport& report);

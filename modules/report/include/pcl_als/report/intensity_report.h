@@ -48,7 +48,6 @@ double meanScale(const BeforeAfter& all);
 std::string intensityJson(const IntensityReport& report);
 /// The description of model.json.
 const FieldTable& intensityFields();
-void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report);
 
 /// slopes.csv, classes.csv, strips.csv, histograms.csv, written into a folder that is made if
 /// missing.

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +46,5 @@ std::string conventionsText();
 /// The text of mounting.json, and its description.
 std::string mountingJson(const MountingReport& report);
 const FieldTable& mountingReportFields();
-void writeMounting(const std::filesystem::path& path, const MountingReport& report);
 
 }  // namespace pcl_als

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,8 +17,6 @@ std::string planTables(const FlightPlanResult& result);
 /// The same as plan.json, and its description.
 std::string planJson(const FlightPlanResult& result, const std::vector<std::string>& inputs);
 const FieldTable& planFields();
-void writePlan(const std::filesystem::path& path, const FlightPlanResult& result,
-               const std::vector<std::string>& inputs);
 
 /// The parameters that a planned flight will not determine, with the reasons; empty: none.
 std::string notDetermined(const CalibrationResult& expected);
