@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <iostream>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/report/accuracy_report.h>
 
 #include "command_line.h"
@@ -29,7 +30,7 @@ int accuracy(const CommandLine& line) {
   const std::string other = line.has("compare") ? line.text("compare") : "";
   const AccuracyReport report = accuracyOfFiles(input, other);
   if (!line.quiet()) std::cout << accuracyText(report);
-  writeAccuracy(line.text("output"), report);
+  writeFile(line.text("output"), accuracyJson(report));
   return kDone;
 }
 

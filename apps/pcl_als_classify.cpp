@@ -96,7 +96,7 @@ void assess(const CommandLine& line, const LandCoverResult& result, const Raster
                         files.excluded};
   report.inputs = {line.text("checkpoints"), line.text("output")};
   if (!line.quiet()) std::cout << '\n' << accuracyText(report) << std::flush;
-  if (line.has("accuracy")) writeAccuracy(line.text("accuracy"), report);
+  if (line.has("accuracy")) writeFile(line.text("accuracy"), accuracyJson(report));
   if (line.has("checked")) writeCheckedSites(line.text("checked"), result.checks.sites);
 }
 

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <iostream>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/history/history_files.h>
 #include <pcl_als/report/history_report.h>
 
@@ -69,7 +70,7 @@ int history(const CommandLine& line) {
   report.instrument = pooledInstrument(report.history, missions.newest);
   report.excluded = std::move(missions.excluded);
   if (!line.quiet()) std::cout << historyText(report);
-  writeHistory(line.text("output"), report);
+  writeFile(line.text("output"), historyJson(report));
   if (line.has("report")) {
     ReportOrigin origin = reportOrigin(line);
     for (const std::string& file : line.inputs()) origin.inputs.push_back(file);

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <optional>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/processing/file_motion.h>
@@ -85,9 +86,9 @@ int icpatch(const CommandLine& line) {
   if (line.has("transformed")) checkMovable(source, line.text("transformed"));
   const PairAlignment alignment = registerPair(pair, settings, app::progressOf(line));
   const PatchAlignmentResult& result = alignment.result;
-  writeAlignment(line.text("output"), result,
-                 {pair.source.name, pair.target.name, alignment.source_points,
-                  alignment.target_points, pair.excluded});
+  writeFile(line.text("output"),
+            alignmentJson(result, {pair.source.name, pair.target.name, alignment.source_points,
+                                   alignment.target_points, pair.excluded}));
   if (!line.quiet()) std::cout << '\n' << alignmentTable(result) << std::endl;
   if (result.hasConverged() && line.has("transformed")) {
     Step writing("Writing " + line.text("transformed"), line.quiet());

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/io/point_reference.h>
@@ -92,7 +93,7 @@ int intensity(const CommandLine& line) {
   if (!isRoot(app::processes())) return app::kDone;
   if (!line.quiet()) print(result);
   const IntensityReport report{&result, extinction, options.output, outputs};
-  if (line.has("output")) writeIntensityJson(line.text("output"), report);
+  if (line.has("output")) writeFile(line.text("output"), intensityJson(report));
   if (page) writeReport(line, report, *page);
   return app::conclude(line, result.unreliable);
 }

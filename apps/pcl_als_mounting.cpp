@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <iostream>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/report/mounting_report.h>
@@ -128,7 +129,7 @@ int mounting(const CommandLine& line) {
   const std::string file = line.text("calibration");
   const MountingInput input = inputOf(line);
   const MountingReport report = reportMounting(usableCalibration(line), file, input);
-  if (line.has("output")) writeMounting(line.text("output"), report);
+  if (line.has("output")) writeFile(line.text("output"), mountingJson(report));
   if (!line.quiet()) std::cout << mountingText(report) << std::flush;
   return kDone;
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <iostream>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/image_orientation.h>
 #include <pcl_als/report/orientation_page.h>
@@ -87,7 +88,7 @@ int orient(const CommandLine& line) {
   const ImageOrientationOptions options = optionsOf(line);
   const ImageBlockFiles files = filesOf(line);
   const ImageOrientationResult result = orientImages(files, options, app::progressOf(line));
-  writeOrientation(line.text("output"), result);
+  writeFile(line.text("output"), orientationJson(result));
   if (!line.quiet()) std::cout << orientationText(result) << std::flush;
   if (line.has("report")) {
     writeOrientationPage(app::reportOrigin(line), result);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <pcl_als/calibration/flight_plan.h>
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/io/plan_io.h>
 #include <pcl_als/processing/planned_strips.h>
 #include <pcl_als/report/plan_report.h>
@@ -126,7 +127,7 @@ int plan(const CommandLine& line) {
   if (line.has("output")) {
     std::vector<std::string> inputs{line.text("lines")};
     if (line.has("terrain")) inputs.push_back(line.text("terrain"));
-    writePlan(line.text("output"), result, inputs);
+    writeFile(line.text("output"), planJson(result, inputs));
   }
   if (!line.quiet()) std::cout << '\n' << planTables(result) << std::flush;
   return app::conclude(line, result.expected.converged ? "" : notDetermined(result.expected));

@@ -35,6 +35,8 @@ struct Tree {
   std::vector<Leaf> leaves;
   std::optional<Leaf> bud;
   std::vector<std::vector<double>> nested;
+  NamedValues<Leaf> named;
+  std::map<std::string, double> sizes;
 };
 
 constexpr double kUnit = 0.5;
@@ -69,7 +71,9 @@ const Fields<Tree>& treeFields() {
         onlyIf(&Tree::evergreen)},
        {"old", [](const Tree& t) { return t.rings > 100; }, "Age",
         knownIf([](const Tree& t) { return t.rings > 0; })},
-       {"nested", &Tree::nested, "Lists of lists"}});
+       {"nested", &Tree::nested, "Lists of lists"},
+       {"named", &Tree::named, leafFields(), "Leaves by name", unlessEmpty},
+       {"sizes_m", &Tree::sizes, "Sizes by name", unlessEmpty}});
   return fields;
 }
 
@@ -91,6 +95,28 @@ std::string refusal(std::string_view key, FieldValue value) {
     return error.what();
   }
   return {};
+}
+
+TEST(Fields, ValuesByNameKeepTheirOrder) {
+  Tree tree = example();
+  tree.named = {{"second", {"b", 0.25, 3}}, {"first", {"a", 0.5, 1}}};
+  tree.sizes = {{"x", 2.0}};
+  const FieldValue file = treeFields().write(tree);
+  const auto& named = *file.find("named")->as<FieldValue::Object>();
+  EXPECT_EQ(named.front().first, "second");
+  EXPECT_EQ(*named.front().second.find("angle_deg"), FieldValue(0.5));
+  Tree read;
+  treeFields().read(read, {file, "tree.json"});
+  EXPECT_EQ(treeFields().write(read), file);
+  EXPECT_EQ(read.named.at(1).second.name, "a");
+  EXPECT_EQ(read.sizes.at("x"), 2.0);
+  EXPECT_NE(refusal("sizes_m", FieldValue::Object{{"y", "large"}}).find("'sizes_m.y'"),
+            std::string::npos);
+  EXPECT_NE(refusal("named", 3).find("must be an object"), std::string::npos);
+  const FieldValue schema = schemaOf(treeFields(), "tree.json");
+  const FieldValue* sizes = schema.find("properties")->find("sizes_m");
+  EXPECT_EQ(*sizes->find("additionalProperties")->find("type"),
+            FieldValue(FieldValue::List{"number", "null"}));
 }
 
 TEST(Fields, WriteAndReadTheSameValues) {

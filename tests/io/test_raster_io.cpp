@@ -331,25 +331,5 @@ TEST(RasterIo, AWriteThatFailsIsAnErrorAndLeavesNothing) {
   }
 }
 
-TEST(Png, ComesBackAsItWas) {
-  const fs::path folder = test::scratch("png_back");
-  for (const int channels : {3, 4}) {
-    PngImage image{5, 3, channels, {}};
-    for (int i = 0; i < 15 * channels; ++i)
-      image.pixels.push_back(static_cast<std::uint8_t>(7 * i));
-    writePngImage(folder / "a.png", image);
-    const PngImage back = readPngImage(folder / "a.png");
-    EXPECT_EQ(back.channels, channels);
-    EXPECT_EQ(back.pixels, image.pixels);
-  }
-  EXPECT_EQ(filesIn(folder), 1U);
-  EXPECT_NE(test::messageOf<Error>([&] {
-              writePngImage(folder / "b.png", {5, 3, 3, {1}});
-            }).find("do not fit"),
-            std::string::npos);
-  EXPECT_NE(test::messageOf<Error>([&] { readPngImage(folder / "none.png"); }).find("no PNG"),
-            std::string::npos);
-}
-
 }  // namespace
 }  // namespace pcl_als

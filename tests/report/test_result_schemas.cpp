@@ -13,6 +13,12 @@
 #include <pcl_als/io/json_text.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/report/accuracy_report.h>
+#include <pcl_als/report/alignment_report.h>
+#include <pcl_als/report/history_report.h>
+#include <pcl_als/report/intensity_report.h>
+#include <pcl_als/report/inventory_report.h>
+#include <pcl_als/report/mounting_report.h>
+#include <pcl_als/report/plan_report.h>
 #include <pcl_als/report/quality_report.h>
 
 #include "file_bytes.h"
@@ -24,10 +30,12 @@ namespace pcl_als {
 namespace {
 
 const std::vector<FieldTable>& results() {
-  static const std::vector<FieldTable> all = {calibrationFields(), qualityFields(),
-                                              accuracyFields(),
+  static const std::vector<FieldTable> all = {
+      calibrationFields(),    qualityFields(), accuracyFields(),
+      intensityFields(),      icpatchFields(), planFields(),
+      mountingReportFields(), historyFields(), inventoryFields(),
 #ifdef PCL_ALS_HAVE_CERES
-                                              orientationFields()
+      orientationFields()
 #endif
   };
   return all;

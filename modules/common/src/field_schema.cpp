@@ -71,10 +71,11 @@ class SchemaWriter {
       if (type.length > 0) schema.set("minItems", type.length);
       if (type.length > 0) schema.set("maxItems", type.length);
     } else if (type.kind == Kind::object) {
-      if (type.table.empty())
-        setType(schema, "object", type.nullable);
-      else
+      if (!type.table.empty())
         schema = nullable(referenceTo(type.table.front()), type.nullable);
+      else
+        setType(schema, "object", type.nullable);
+      if (!type.item.empty()) schema.set("additionalProperties", valueOf(type.item.front(), row));
     } else if (!type.choices.empty()) {
       FieldValue::List names(type.choices.begin(), type.choices.end());
       if (type.nullable) names.emplace_back();
@@ -159,6 +160,7 @@ std::string typeText(const FieldType& type, const std::string& file) {
       text = "object";
       for (const FieldTable& table : type.table)
         text = "[" + table.name() + "](#" + file + "-" + table.name() + ")";
+      if (!type.item.empty()) text = "by name: " + typeText(type.item.front(), file);
       break;
   }
   return type.nullable ? text + " or null" : text;

@@ -36,7 +36,6 @@ double writableBias(const SystemParameterInfo& info, double bias) {
 Fields<ParameterEstimate> parameterFields(const SystemParameterInfo& info) {
   using P = ParameterEstimate;
   using F = Field<P>;
-  using Status = ParameterStatus;
   const double unit = info.internal_per_unit;
   return {
       "parameter_" + std::string(info.unit),
@@ -52,9 +51,7 @@ Fields<ParameterEstimate> parameterFields(const SystemParameterInfo& info) {
          "Standard deviation by the noise of points alone (Habib et al. 2011, Eq. (26))", in(unit),
          of(info.unit), mayBeMissing),
        unitField<P>(info.unit),
-       F("status", &P::status,
-         FieldNames<Status>(toString, {Status::estimated, Status::fixed, Status::not_estimable}),
-         "Whether it was estimated", mayBeMissing),
+       F("status", &P::status, parameterStatusNames(), "Whether it was estimated", mayBeMissing),
        F("prior_share", &P::prior_share,
          "Part of the variance that stems from the prior: 0 (this flight alone) to 1 (the prior "
          "alone)",
@@ -65,51 +62,50 @@ Fields<ParameterEstimate> parameterFields(const SystemParameterInfo& info) {
 }
 
 const Fields<Parameters>& parametersFields() {
-  static const Fields<Parameters> fields("parameters", "The system parameters.", [] {
-    std::vector<Field<Parameters>> rows;
-    for (const SystemParameterInfo& info : systemParameters())
-      rows.emplace_back(
-          std::string(info.name),
-          [i = indexOf(info.parameter)](auto& all) -> auto& { return all[i]; },
-          parameterFields(info), "");
-    return rows;
-  }());
-  return fields;
+  static const auto fields = fieldsByParameter<Parameters>(
+      "parameters", "The system parameters.",
+      [](const SystemParameterInfo& info) -> Field<Parameters> {
+    const int i = indexOf(info.parameter);
+    return {std::string(info.name), [i](auto& all) -> auto& {return all[i]; },
+                parameterFields(info), ""
+};
+});
+return fields;
 }
 
 const Fields<SystemEstimate>& systemFields() {
   using S = SystemEstimate;
   using F = Field<S>;
-  static const Fields<SystemVector> differences(
-      "difference_std", "Standard deviations of the differences from the first system.", [] {
-        std::vector<Field<SystemVector>> rows;
-        for (const SystemParameterInfo& info : systemParameters()) {
-          const int i = indexOf(info.parameter);
-          rows.push_back(Field<SystemVector>(
-              std::string(info.name), [i](auto& all) -> auto& { return all[i]; }, "",
-              in(info.internal_per_unit), of(info.unit),
-              onlyIf([i](const SystemVector& all) { return all[i] > 0.0; })));
-        }
-        return rows;
-      }());
-  static const Fields<S> fields =
-      Fields<S>("system", "One of several systems that were calibrated together.",
-                {F(
-                     "name", [](auto& s) -> auto& { return s.group.name; }, "Name of the system"),
-                 F(
-                     "strips", [](auto& s) -> auto& { return s.group.strips; }, "Its strips"),
-                 F("parameters", &S::parameters, parametersFields(), "Its system parameters"),
-                 F("difference_std", &S::difference_std, differences,
-                   "Standard deviations of the differences from the first system"),
-                 F("offset_m", &S::offset,
-                   "Error of its coordinates relative to the first system: east, north, up"),
-                 F("offset_std_m", &S::offset_std, "Standard deviations of the offset")})
-          .checked([](const S& system, const FieldNode& node) {
-            constexpr double kLargestOffset = 100.0;  // metres
-            if (!(system.offset.cwiseAbs().maxCoeff() < kLargestOffset))
-              node["offset_m"].refuse("must be numbers of less than 100 m");
-          });
-  return fields;
+  static const auto differences = fieldsByParameter<SystemVector>(
+      "difference_std", "Standard deviations of the differences from the first system.",
+      [](const SystemParameterInfo& info) -> Field<SystemVector> {
+    const int i = indexOf(info.parameter);
+    return {std::string(info.name), [i](auto& all) -> auto& {return all[i]; },
+                "",
+                in(info.internal_per_unit),
+                of(info.unit),
+                onlyIf([i](const SystemVector& all) {
+    return all[i] > 0.0; })
+};
+});
+static const Fields<S> fields =
+    Fields<S>("system", "One of several systems that were calibrated together.",
+              {F(
+                   "name", [](auto& s) -> auto& { return s.group.name; }, "Name of the system"),
+               F(
+                   "strips", [](auto& s) -> auto& { return s.group.strips; }, "Its strips"),
+               F("parameters", &S::parameters, parametersFields(), "Its system parameters"),
+               F("difference_std", &S::difference_std, differences,
+                 "Standard deviations of the differences from the first system"),
+               F("offset_m", &S::offset,
+                 "Error of its coordinates relative to the first system: east, north, up"),
+               F("offset_std_m", &S::offset_std, "Standard deviations of the offset")})
+        .checked([](const S& system, const FieldNode& node) {
+          constexpr double kLargestOffset = 100.0;  // metres
+          if (!(system.offset.cwiseAbs().maxCoeff() < kLargestOffset))
+            node["offset_m"].refuse("must be numbers of less than 100 m");
+        });
+return fields;
 }
 
 /// Values beyond these are refused, internal units: an error of the file.
@@ -329,3 +325,32 @@ const FieldNames<AttitudeSource>& attitudeNames() {
 }
 
 }  // namespace pcl_als::detail
+
+namespace pcl_als {
+
+const Fields<SystemVector>& deviationFields() {
+  static const auto fields = fieldsByParameter<SystemVector>(
+      "parameter_std", "Standard deviations of system parameters.",
+      [](const SystemParameterInfo& info) -> Field<SystemVector> {
+    const int i = indexOf(info.parameter);
+    return {std::string(info.name), [i](auto& all) -> auto& {return all[i]; },
+                "",
+                field::in(info.internal_per_unit),
+                field::of(info.unit),
+                field::alwaysKnown,
+                field::notNegative,
+                field::onlyIf([i](const SystemVector& all) {
+    return std::isfinite(all[i]); })
+};
+});
+return fields;
+}
+
+const FieldNames<ParameterStatus>& parameterStatusNames() {
+  using Status = ParameterStatus;
+  static const FieldNames<Status> names(toString,
+                                        {Status::estimated, Status::fixed, Status::not_estimable});
+  return names;
+}
+
+}  // namespace pcl_als

@@ -99,6 +99,10 @@ const FieldTable& calibrationFields() {
   return fields;
 }
 
+const Fields<CalibrationResult>& calibrationInstrumentFields() {
+  return detail::instrumentFields();
+}
+
 const Fields<ExcludedPoints>& excludedFields() {
   using F = Field<ExcludedPoints>;
   using Reason = ExclusionReason;

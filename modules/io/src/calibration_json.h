@@ -3,10 +3,9 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include <pcl_als/common/calibration_result.h>
-#include <pcl_als/common/fields.h>
+#include <pcl_als/io/parameter_fields.h>
 
 namespace pcl_als::detail {
 
@@ -32,16 +31,5 @@ Field<CalibrationResult> heldField();
 std::vector<SystemParameter> parametersNamed(const FieldNode& names);
 const FieldNames<SystemParameter>& parameterNames();
 const FieldNames<AttitudeSource>& attitudeNames();
-
-/// The unit of an object, which must be that one.
-template <typename S>
-Field<S> unitField(std::string_view unit) {
-  return Field<S>(
-      "unit", [unit](const S& /*object*/) { return unit; }, "Unit of its values",
-      field::is({FieldType::Kind::text, false, {std::string(unit)}}),
-      field::reads([unit](S& /*object*/, const FieldNode& node) {
-        if (node.text() != unit) node.refuseText({std::string(unit)});
-      }));
-}
 
 }  // namespace pcl_als::detail

@@ -17,7 +17,6 @@ GDALDriverH gdalDriver(const char* name) {
   std::call_once(once, [] {
     GDALRegister_GTiff();
     GDALRegister_MEM();
-    GDALRegister_PNG();
 #if GDAL_VERSION_NUM >= GDAL_COMPUTE_VERSION(3, 1, 0)
     GDALRegister_COG();
 #endif

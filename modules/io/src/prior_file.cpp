@@ -25,15 +25,7 @@ void readHistory(const FieldNode& root, PriorFile& file) {
                            std::to_string(kHistoryVersion));
   file.is_history = true;
   file.earlier = detail::instrumentIn(root["instrument"]);
-  if (!root.has("change_std")) return;
-  const FieldNode changes = root["change_std"];
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const std::string name(info.name);
-    if (!changes.has(name.c_str())) continue;
-    const double std = changes[name].number();
-    if (std < 0.0) changes[name].refuse("must not be negative");
-    file.change_std[indexOf(info.parameter)] = std * info.internal_per_unit;
-  }
+  if (root.has("change_std")) deviationFields().read(file.change_std, root["change_std"]);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/crs/crs.h>
-#include <pcl_als/io/raster_io.h>
 
 #include "gdal_handle.h"
+#include "raster_format.h"
 #include "raster_georeference.h"
 
 namespace fs = std::filesystem;
@@ -48,46 +48,47 @@ void checkSize(GDALDatasetH dataset, const fs::path& path) {
                      std::to_string(height) + " cells, too large to read; rewrite it in tiles");
 }
 
-}  // namespace
-
-struct RasterReader::State {
-  explicit State(fs::path p) : path(std::move(p)), file(path) {}
-  ~State() {
-    const GdalReports reports(path);
-    dataset.reset();
+class GdalRaster : public detail::OpenedRaster {
+ public:
+  explicit GdalRaster(const fs::path& path) : path_(path), file_(path) {}
+  ~GdalRaster() override {
+    const GdalReports reports(path_);
+    dataset_.reset();
   }
+  void open();
+  const RasterLayout& layout() const override { return layout_; }
+  PointFileInfo info() const override;
+  int overviews() const override {
+    return GDALGetOverviewCount(GDALGetRasterBand(dataset_.get(), 1));
+  }
+  void read(std::size_t band, const RasterWindow& window, float* values) override;
+  void readReduced(std::size_t band, const RasterWindow& window, int columns, int rows,
+                   std::uint8_t* values) override;
 
-  fs::path path;
-  InputFile file;  ///< open beside GDAL, to notice when the file is changed
-  RasterLayout layout;
-  detail::Dataset dataset;
-  std::vector<float> no_data;  ///< of each band; NaN: none
+ private:
+  fs::path path_;
+  InputFile file_;  ///< open beside GDAL, to notice when the file is changed
+  RasterLayout layout_;
+  detail::Dataset dataset_;
+  std::vector<float> no_data_;  ///< of each band; NaN: none
 };
 
-RasterReader::RasterReader(const fs::path& path) : state_(std::make_unique<State>(path)) {
-  const GdalReports reports(path);
+void GdalRaster::open() {
+  const GdalReports reports(path_);
   const char* const drivers[] = {"GTiff", nullptr};
   detail::gdalDriver("GTiff");
-  state_->dataset.reset(GDALOpenEx(path.string().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
-                                   drivers, nullptr, nullptr));
-  reports.check(state_->dataset != nullptr, "is no GeoTIFF that can be read");
-  state_->layout = detail::layoutOf(state_->dataset.get(), reports);
-  checkSize(state_->dataset.get(), path);
-  for (std::size_t i = 0; i < state_->layout.bands.size(); ++i) {
+  dataset_.reset(GDALOpenEx(path_.string().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers,
+                            nullptr, nullptr));
+  reports.check(dataset_ != nullptr, "is no GeoTIFF that can be read");
+  layout_ = detail::layoutOf(dataset_.get(), reports);
+  checkSize(dataset_.get(), path_);
+  for (std::size_t i = 0; i < layout_.bands.size(); ++i) {
     int has = 0;
-    const double value = GDALGetRasterNoDataValue(
-        GDALGetRasterBand(state_->dataset.get(), static_cast<int>(i) + 1), &has);
-    state_->no_data.push_back(has != 0 ? static_cast<float>(value) : std::nanf(""));
+    const double value =
+        GDALGetRasterNoDataValue(GDALGetRasterBand(dataset_.get(), static_cast<int>(i) + 1), &has);
+    no_data_.push_back(has != 0 ? static_cast<float>(value) : std::nanf(""));
   }
 }
-
-RasterReader::~RasterReader() = default;
-
-const RasterLayout& RasterReader::layout() const {
-  return state_->layout;
-}
-
-namespace {
 
 /// A unit of length as GDAL, ESRI or PROJ spell it.
 LengthUnit unitSpelled(std::string text, const fs::path& path) {
@@ -106,45 +107,38 @@ LengthUnit unitSpelled(std::string text, const fs::path& path) {
                    "', which is no known unit of length");
 }
 
-}  // namespace
-
-PointFileInfo RasterReader::info() const {
-  const RasterGrid& grid = state_->layout.grid;
+PointFileInfo GdalRaster::info() const {
+  const RasterGrid& grid = layout_.grid;
   const CrsDescription crs = describeCrs(grid.crs);
   PointFileInfo info;
-  info.path = state_->path;
+  info.path = path_;
   info.point_count = grid.cells();
   info.minimum.head<2>() << grid.west, grid.north - grid.rows * grid.cell;
   info.maximum.head<2>() << grid.west + grid.columns * grid.cell, grid.north;
-  info.version = state_->file.version();
+  info.version = file_.version();
   info.crs = grid.crs;
   info.crs_kind = crs.kind;
   info.units = unitsOfCrs(grid.crs);
   info.units.vertical = crs.vertical.value_or(LengthUnit());
   info.format = "GeoTIFF";
-  const char* unit = GDALGetRasterUnitType(GDALGetRasterBand(state_->dataset.get(), 1));
+  const char* unit = GDALGetRasterUnitType(GDALGetRasterBand(dataset_.get(), 1));
   if (unit != nullptr && *unit != '\0') {
-    info.units.vertical = unitSpelled(unit, state_->path);
+    info.units.vertical = unitSpelled(unit, path_);
     info.units.vertical_source = "the band";
   }
   return info;
 }
 
-int RasterReader::overviews() const {
-  return GDALGetOverviewCount(GDALGetRasterBand(state_->dataset.get(), 1));
-}
-
-void RasterReader::read(std::size_t band, const RasterWindow& window, float* values) {
-  detail::checkWindow(state_->layout, band, window);
-  const GdalReports reports(state_->path);
-  const GDALRasterBandH handle =
-      GDALGetRasterBand(state_->dataset.get(), static_cast<int>(band) + 1);
+void GdalRaster::read(std::size_t band, const RasterWindow& window, float* values) {
+  detail::checkWindow(layout_, band, window);
+  const GdalReports reports(path_);
+  const GDALRasterBandH handle = GDALGetRasterBand(dataset_.get(), static_cast<int>(band) + 1);
   const CPLErr outcome =
       GDALRasterIO(handle, GF_Read, window.column, window.row, window.columns, window.rows, values,
                    window.columns, window.rows, GDT_Float32, 0, 0);
   reports.check(outcome == CE_None, "cannot be read");
-  state_->file.requireUnchanged();
-  const float no_data = state_->no_data[band];
+  file_.requireUnchanged();
+  const float no_data = no_data_[band];
   const double scale = GDALGetRasterScale(handle, nullptr);
   const double offset = GDALGetRasterOffset(handle, nullptr);
   const bool scaled = scale != 1.0 || offset != 0.0;
@@ -156,16 +150,11 @@ void RasterReader::read(std::size_t band, const RasterWindow& window, float* val
   }
 }
 
-void RasterReader::read(std::size_t band, const RasterWindow& window, std::uint8_t* values) {
-  readReduced(band, window, window.columns, window.rows, values);
-}
-
-void RasterReader::readReduced(std::size_t band, const RasterWindow& window, int columns, int rows,
-                               std::uint8_t* values) {
-  detail::checkWindow(state_->layout, band, window);
-  const GdalReports reports(state_->path);
-  const GDALRasterBandH handle =
-      GDALGetRasterBand(state_->dataset.get(), static_cast<int>(band) + 1);
+void GdalRaster::readReduced(std::size_t band, const RasterWindow& window, int columns, int rows,
+                             std::uint8_t* values) {
+  detail::checkWindow(layout_, band, window);
+  const GdalReports reports(path_);
+  const GDALRasterBandH handle = GDALGetRasterBand(dataset_.get(), static_cast<int>(band) + 1);
   reports.check(GDALGetRasterDataType(handle) == GDT_Byte, "its cells are no bytes");
   GDALRasterIOExtraArg how;
   INIT_RASTERIO_EXTRA_ARG(how);
@@ -173,7 +162,15 @@ void RasterReader::readReduced(std::size_t band, const RasterWindow& window, int
   const CPLErr outcome = GDALRasterIOEx(handle, GF_Read, window.column, window.row, window.columns,
                                         window.rows, values, columns, rows, GDT_Byte, 0, 0, &how);
   reports.check(outcome == CE_None, "cannot be read");
-  state_->file.requireUnchanged();
+  file_.requireUnchanged();
+}
+
+}  // namespace
+
+std::unique_ptr<detail::OpenedRaster> detail::openWithGdal(const fs::path& path) {
+  auto file = std::make_unique<GdalRaster>(path);
+  file->open();
+  return file;
 }
 
 }  // namespace pcl_als

@@ -7,6 +7,8 @@
 #include <pcl_als/common/memory.h>
 #include <pcl_als/io/raster_io.h>
 
+#include "raster_format.h"
+
 namespace fs = std::filesystem;
 
 namespace pcl_als {
@@ -37,6 +39,56 @@ void checkCells(std::size_t values, const RasterGrid& grid, const std::string& w
 }
 
 }  // namespace
+
+#ifdef PCL_ALS_HAVE_GDAL
+RasterWriter::RasterWriter(const fs::path& path, RasterLayout layout, RasterOptions options)
+    : file_(detail::createWithGdal(path, std::move(layout), std::move(options))) {}
+RasterReader::RasterReader(const fs::path& path) : file_(detail::openWithGdal(path)) {}
+#else
+constexpr const char* kNoGdal =
+    ": rasters need GDAL; build with -DPCL_ALS_WITH_GDAL=ON and libgdal-dev";
+RasterWriter::RasterWriter(const fs::path& path, RasterLayout, RasterOptions) {
+  throw InputError(path.string() + kNoGdal);
+}
+RasterReader::RasterReader(const fs::path& path) {
+  throw InputError(path.string() + kNoGdal);
+}
+#endif
+
+RasterWriter::~RasterWriter() = default;
+const RasterLayout& RasterWriter::layout() const {
+  return file_->layout();
+}
+void RasterWriter::write(std::size_t band, const RasterWindow& window, const float* values) {
+  file_->write(band, window, values);
+}
+void RasterWriter::write(std::size_t band, const RasterWindow& window, const std::uint8_t* values) {
+  file_->write(band, window, values);
+}
+void RasterWriter::commit() {
+  file_->commit();
+}
+
+RasterReader::~RasterReader() = default;
+const RasterLayout& RasterReader::layout() const {
+  return file_->layout();
+}
+PointFileInfo RasterReader::info() const {
+  return file_->info();
+}
+int RasterReader::overviews() const {
+  return file_->overviews();
+}
+void RasterReader::read(std::size_t band, const RasterWindow& window, float* values) {
+  file_->read(band, window, values);
+}
+void RasterReader::read(std::size_t band, const RasterWindow& window, std::uint8_t* values) {
+  file_->readReduced(band, window, window.columns, window.rows, values);
+}
+void RasterReader::readReduced(std::size_t band, const RasterWindow& window, int columns, int rows,
+                               std::uint8_t* values) {
+  file_->readReduced(band, window, columns, rows, values);
+}
 
 void writeRaster(const fs::path& path, const Raster& raster, const RasterOptions& options) {
   RasterLayout layout;

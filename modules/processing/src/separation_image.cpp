@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/drawing/image.h>
 #include <pcl_als/io/raster_io.h>
 #include <pcl_als/processing/separation_image.h>
 #include <pcl_als/quality/accuracy_standards.h>
@@ -74,7 +75,7 @@ SeparationOverview::Code codeOf(const SwathSeparation::Cell& cell, double limit)
 
 struct Outputs {
   RasterWriter colours, metres;
-  PngImage png;
+  Image png;
   int step;  ///< of the cells that the PNG shows
   OverviewCounts overview;
 };
@@ -106,10 +107,9 @@ void writeRows(const std::vector<SwathSeparation::Cell>& cells, const RasterWind
       bands[k][i] = pixel.alpha == 0 ? std::uint8_t{0} : std::max<std::uint8_t>(1, rgb[k]);
     const int row = window.row + static_cast<int>(i) / window.columns;
     const int column = static_cast<int>(i) % window.columns;
-    if (row % outputs.step == 0 && column % outputs.step == 0) {
-      const std::uint8_t rgba[] = {pixel.red, pixel.green, pixel.blue, pixel.alpha};
-      outputs.png.pixels.insert(outputs.png.pixels.end(), rgba, rgba + 4);
-    }
+    if (row % outputs.step == 0 && column % outputs.step == 0)
+      outputs.png.at(column / outputs.step, row / outputs.step) = {pixel.red, pixel.green,
+                                                                   pixel.blue, pixel.alpha};
     const SeparationOverview::Code code = codeOf(cells[i], summary.limit);
     outputs.overview.add(column, row, code);
     if (cells[i].strips < 2) continue;
@@ -146,14 +146,13 @@ SeparationSummary writeSeparation(const std::filesystem::path& folder, const std
   options.threads = threads;
   Outputs outputs{{colours, layoutOf(grid, true, summary.limit), options},
                   {metres, layoutOf(grid, false, summary.limit), options},
-                  PngImage(),
+                  Image(),
                   1,
                   OverviewCounts(grid)};
   while (static_cast<double>(grid.cells()) > kMostInPng * outputs.step * outputs.step)
     ++outputs.step;
-  outputs.png.width = (grid.columns + outputs.step - 1) / outputs.step;
-  outputs.png.height = (grid.rows + outputs.step - 1) / outputs.step;
-  outputs.png.channels = 4;
+  outputs.png = Image((grid.columns + outputs.step - 1) / outputs.step,
+                      (grid.rows + outputs.step - 1) / outputs.step);
   const SwathSeparation::Stretch stretch = separation.intensityStretch();
   for (int row = 0; row < grid.rows; row += kRows) {
     const int rows = std::min(kRows, grid.rows - row);
@@ -169,7 +168,7 @@ SeparationSummary writeSeparation(const std::filesystem::path& folder, const std
   }
   outputs.colours.commit();
   outputs.metres.commit();
-  writePngImage(png, outputs.png);
+  writePng(png, outputs.png);
   summary.overview = outputs.overview.overview();
   summary.files = {colours.filename().string(), metres.filename().string(),
                    png.filename().string()};

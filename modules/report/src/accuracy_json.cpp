@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/fields.h>
 #include <pcl_als/io/json_text.h>
 #include <pcl_als/io/result_json.h>
@@ -114,10 +113,6 @@ const FieldTable& accuracyFields() {
 
 std::string accuracyJson(const AccuracyReport& report) {
   return jsonText(accuracyFields().write(&report));
-}
-
-void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& report) {
-  writeFile(path, accuracyJson(report));
 }
 
 }  // namespace pcl_als

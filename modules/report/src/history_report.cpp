@@ -4,22 +4,20 @@
 #include <cmath>
 #include <map>
 
-#include <nlohmann/json.hpp>
-
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/common/parameter_text.h>
+#include <pcl_als/io/json_text.h>
+#include <pcl_als/io/parameter_fields.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/report/history_report.h>
 
 #include "formatted.h"
-#include "json_number.h"
 
 namespace pcl_als {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using namespace field;
 
 constexpr double kMostFromZero = 3.0, kLeastFromZero = 5.0;  // standard deviations
 
@@ -68,56 +66,145 @@ std::string parameterLine(const CalibrationHistory& history, const SystemParamet
                                           : "no");
 }
 
-Json parameterJson(const CalibrationHistory& history, const SystemParameterInfo& info) {
-  const ParameterHistory& parameter = history[info.parameter];
-  const double unit = info.internal_per_unit;
-  Json json = {{"missions", parameter.missions},       {"unit", info.unit},
-               {"chi_squared", parameter.chi_squared}, {"p_value", parameter.p_value},
-               {"constant", parameter.constant},       {"segments", Json::array()}};
-  for (const ParameterSegment& segment : parameter.segments)
-    json["segments"].push_back({{"first", history.missions[segment.first].name},
-                                {"last", history.missions[segment.last].name},
-                                {"bias", segment.bias / unit},
-                                {"std", segment.std / unit}});
-  return json;
+/// A parameter, a segment, a change or a mission with the history that it is of.
+template <typename Item>
+struct OfHistory {
+  const CalibrationHistory* history;
+  const SystemParameterInfo* info;
+  const Item* item;
+  double in(double value) const { return value / info->internal_per_unit; }
+  const std::string& mission(std::size_t m) const { return history->missions[m].name; }
+};
+
+/// Items with the history and their parameter.
+template <typename Item, typename InfoOf>
+std::vector<OfHistory<Item>> itemsOf(const CalibrationHistory& history,
+                                     const std::vector<Item>& items, InfoOf info) {
+  std::vector<OfHistory<Item>> all;
+  for (const Item& item : items) all.push_back({&history, info(item), &item});
+  return all;
 }
 
-Json changeJson(const CalibrationHistory& history, const ParameterChange& change) {
-  const SystemParameterInfo& info = infoOf(change.parameter);
-  Json json = {{"kind", toString(change.kind)},
-               {"parameter", info.name},
-               {"last_before", history.missions[change.last_before].name},
-               {"first_after", history.missions[change.first_after].name},
-               {"size", change.size / info.internal_per_unit},
-               {"std", change.std / info.internal_per_unit},
-               {"unit", info.unit},
-               {"p_value", change.p_value},
-               {"position_probability", change.position_probability},
-               {"probability", change.probability},
-               {"text", changeText(history, change)}};
-  if (!change.covariate.empty()) json["per"] = change.covariate;
-  return json;
+NamedValues<OfHistory<ParameterHistory>> historyParametersOf(const CalibrationHistory& history) {
+  NamedValues<OfHistory<ParameterHistory>> all;
+  for (const SystemParameterInfo& info : systemParameters())
+    if (history.knows(info.parameter))
+      all.push_back({std::string(info.name), {&history, &info, &history[info.parameter]}});
+  return all;
 }
 
-Json missionJson(const CalibrationHistory& history, std::size_t m) {
-  const CalibrationMission& mission = history.missions[m];
-  const MissionAgreement& agreement = history.agreement[m];
-  Json json = {{"calibration", mission.name}};
-  if (mission.day) json["date"] = dateText(*mission.day);
-  for (const auto& [name, value] : mission.covariates) json["covariates"][name] = value;
-  Json& parameters = json["parameters"] = Json::object();
+const Fields<OfHistory<ParameterHistory>>& historyParameterFields() {
+  using P = OfHistory<ParameterHistory>;
+  using S = OfHistory<ParameterSegment>;
+  static const Fields<S> segment(
+      "segment", "A value that held over consecutive missions.",
+      {{"first", [](const S& s) { return s.mission(s.item->first); }, "First mission"},
+       {"last", [](const S& s) { return s.mission(s.item->last); }, "Last mission"},
+       {"bias", [](const S& s) { return s.in(s.item->bias); }, "Assumed - true value"},
+       {"std", [](const S& s) { return s.in(s.item->std); }, "Standard deviation"}});
+  static const Fields<P> fields(
+      "parameter_history", "The history of a parameter, in its unit.",
+      {{"missions", [](const P& p) { return p.item->missions; }, "Missions that determine it"},
+       {"unit", [](const P& p) { return p.info->unit; }, "Unit of its values"},
+       {"chi_squared", [](const P& p) { return p.item->chi_squared; }, "Test of constancy"},
+       {"p_value", [](const P& p) { return p.item->p_value; }, "Its probability"},
+       {"constant", [](const P& p) { return p.item->constant; }, "Whether it is constant"},
+       {"segments",
+        [](const P& p) {
+          return itemsOf(*p.history, p.item->segments, [&p](const auto&) { return p.info; });
+        },
+        segment, "Its values between steps"}});
+  return fields;
+}
+
+const Fields<OfHistory<ParameterChange>>& parameterChangeFields() {
+  using C = OfHistory<ParameterChange>;
+  static const Fields<C> fields(
+      "change", "A significant change of a parameter.",
+      {{"kind", [](const C& c) { return toString(c.item->kind); }, "What it looks like",
+        oneOf({"step", "drift", "outlier"})},
+       {"parameter", [](const C& c) { return c.info->name; }, "Name of the parameter"},
+       {"last_before", [](const C& c) { return c.mission(c.item->last_before); },
+        "Last mission before a step; the outlier; the first of a drift"},
+       {"first_after", [](const C& c) { return c.mission(c.item->first_after); },
+        "First mission after a step; the outlier; the last of a drift"},
+       {"size", [](const C& c) { return c.in(c.item->size); }, "Change, in `unit`"},
+       {"std", [](const C& c) { return c.in(c.item->std); }, "Standard deviation"},
+       {"unit", [](const C& c) { return c.info->unit; }, "Unit of both"},
+       {"p_value", [](const C& c) { return c.item->p_value; }, "Probability without a change"},
+       {"position_probability", [](const C& c) { return c.item->position_probability; },
+        "Of a step: probability of this place"},
+       {"probability", [](const C& c) { return c.item->probability; },
+        "Against random changes between missions"},
+       {"text", [](const C& c) { return changeText(*c.history, *c.item); }, "As a sentence"},
+       {"per", [](const C& c) { return c.item->covariate; }, "Covariate of a drift", unlessEmpty}});
+  return fields;
+}
+
+/// A value of a parameter in its unit.
+struct MissionValue {
+  double bias, std;
+};
+
+NamedValues<MissionValue> valuesOf(const CalibrationMission& mission) {
+  NamedValues<MissionValue> all;
   for (const SystemParameterInfo& info : systemParameters()) {
     if (!mission.determines(info.parameter)) continue;
     const int p = indexOf(info.parameter);
-    parameters[std::string(info.name)] = {
-        {"bias", number(mission.bias[p] / info.internal_per_unit)},
-        {"std", number(mission.std[p] / info.internal_per_unit)}};
+    const double unit = info.internal_per_unit;
+    all.push_back({std::string(info.name), {mission.bias[p] / unit, mission.std[p] / unit}});
   }
-  json["agreement"] = {{"chi_squared", agreement.chi_squared},
-                       {"degrees_of_freedom", agreement.freedom},
-                       {"p_value", agreement.p_value},
-                       {"agrees", agreement.agrees}};
-  return json;
+  return all;
+}
+
+/// A mission with its agreement.
+struct ListedMission {
+  const CalibrationMission* mission;
+  const MissionAgreement* agreement;
+};
+
+std::vector<ListedMission> missionsOf(const CalibrationHistory& history) {
+  std::vector<ListedMission> all;
+  for (std::size_t m = 0; m < history.missions.size(); ++m)
+    all.push_back({&history.missions[m], &history.agreement[m]});
+  return all;
+}
+
+const Fields<ListedMission>& missionFields() {
+  using A = MissionAgreement;
+  using M = ListedMission;
+  static const Fields<MissionValue> value("mission_value", "A parameter by this flight alone.",
+                                          {{"bias", &MissionValue::bias, "Assumed - true value"},
+                                           {"std", &MissionValue::std, "Standard deviation"}});
+  static const Fields<A> agreement(
+      "agreement", "How a mission agrees with the others.",
+      {{"chi_squared", &A::chi_squared, "Of the differences from the prediction"},
+       {"degrees_of_freedom", &A::freedom, "Parameters that were compared"},
+       {"p_value", &A::p_value, "Probability of larger differences"},
+       {"agrees", &A::agrees, "Whether it agrees"}});
+  static const Fields<M> fields(
+      "mission", "A calibration.",
+      {{"calibration", [](const M& m) { return m.mission->name; }, "Its file"},
+       {"date", [](const M& m) { return m.mission->day ? dateText(*m.mission->day) : ""; },
+        "Date of the flight", unlessEmpty},
+       {"covariates", [](const M& m) { return m.mission->covariates; }, "Such as the temperature",
+        unlessEmpty},
+       {"parameters", [](const M& m) { return valuesOf(*m.mission); }, value,
+        "Parameters that it determines, each in its unit"},
+       {"agreement", [](const M& m) { return *m.agreement; }, agreement, "With the others"}});
+  return fields;
+}
+
+/// NaN where it is not known: a zero from fewer missions is no estimate.
+SystemVector changesOf(const HistoryReport& report) {
+  SystemVector all = SystemVector::Constant(std::nan(""));
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterHistory& known = report.history[info.parameter];
+    if (known.missions == 0) continue;
+    if (known.change_std > 0.0 || known.missions >= CalibrationHistory::kFewestForChange)
+      all[indexOf(info.parameter)] = known.change_std;
+  }
+  return all;
 }
 
 }  // namespace
@@ -173,37 +260,33 @@ std::string historyText(const HistoryReport& report) {
   return text;
 }
 
-std::string historyJson(const HistoryReport& report) {
-  const CalibrationHistory& history = report.history;
-  Json json;
-  json["format"] = "pcl_als history";
-  json["version"] = 1;
-  json["tool_version"] = PCL_ALS_VERSION;
-  json["instrument"] = Json::parse(calibrationJson(report.instrument))["instrument"];
-  Json& change = json["change_std"] = Json::object();
-  Json& parameters = json["parameters"] = Json::object();
-  for (const SystemParameterInfo& info : systemParameters()) {
-    if (!history.knows(info.parameter)) continue;
-    const std::string name(info.name);
-    // A zero from fewer missions is no estimate.
-    const ParameterHistory& parameter = history[info.parameter];
-    if (parameter.change_std > 0.0 || parameter.missions >= CalibrationHistory::kFewestForChange)
-      change[name] = parameter.change_std / info.internal_per_unit;
-    parameters[name] = parameterJson(history, info);
-  }
-  json["changes"] = Json::array();
-  for (const ParameterChange& found : history.changes)
-    json["changes"].push_back(changeJson(history, found));
-  json["missions"] = Json::array();
-  for (std::size_t m = 0; m < history.missions.size(); ++m)
-    json["missions"].push_back(missionJson(history, m));
-  json["findings"] = historyFindings(history);
-  json["excluded"] = report.excluded;
-  return json.dump(1) + "\n";
+const FieldTable& historyFields() {
+  using F = Field<HistoryReport>;
+  using R = HistoryReport;
+  const auto changes = [](const R& r) {
+    return itemsOf(r.history, r.history.changes,
+                   [](const ParameterChange& change) { return &infoOf(change.parameter); });
+  };
+  static const Fields<R> fields(
+      "history", "Result of `pcl_als_history`.",
+      {F::constant("format", "pcl_als history", ""),
+       F::constant("version", 1, ""),
+       {"tool_version", [](const R&) { return PCL_ALS_VERSION; }, "Version of pcl_als"},
+       {"instrument", &R::instrument, calibrationInstrumentFields(),
+        "The value from now on, as in calibration.json"},
+       {"change_std", changesOf, deviationFields(), "Of changes between missions"},
+       {"parameters", [](const R& r) { return historyParametersOf(r.history); },
+        historyParameterFields(), "Parameters that a mission determines"},
+       {"changes", changes, parameterChangeFields(), "Significant changes"},
+       {"missions", [](const R& r) { return missionsOf(r.history); }, missionFields(),
+        "In the order of their dates"},
+       {"findings", [](const R& r) { return historyFindings(r.history); }, "In sentences"},
+       {"excluded", &R::excluded, "Calibrations that are not used, and why"}});
+  return fields;
 }
 
-void writeHistory(const std::filesystem::path& path, const HistoryReport& report) {
-  writeFile(path, historyJson(report));
+std::string historyJson(const HistoryReport& report) {
+  return jsonText(historyFields().write(&report));
 }
 
 }  // namespace pcl_als

@@ -1,274 +1,298 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <cmath>
-
-#include <nlohmann/json.hpp>
-
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/fields.h>
 #include <pcl_als/common/input_file.h>
+#include <pcl_als/io/json_text.h>
+#include <pcl_als/io/result_json.h>
 #include <pcl_als/report/intensity_report.h>
 
-#include "excluded_json.h"
-#include "json_number.h"
+#include "intensity_fields.h"
 
 namespace pcl_als {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using namespace field;
+using Report = IntensityReport;
 
 constexpr const char* kFormat = "pcl_als intensity";
 
-Json modelJson(const RadiometricModel& model) {
-  return {{"range_exponent", model.range_exponent},
-          {"incidence_exponent", model.incidence_exponent},
-          {"extinction_per_km", model.extinction_per_km},
-          {"reference_range_m", model.reference_range},
-          {"largest_incidence_deg", model.largest_incidence}};
+/// Null and negative values are refused.
+void knownNotNegative(FieldRow& row) {
+  alwaysKnown(row), notNegative(row);
 }
 
-Json atmosphereJson(const ExtinctionChoice& choice) {
-  if (!choice.air) return {{"source", choice.remark}, {"extinction_per_km", choice.per_km}};
-  const Atmosphere& air = *choice.air;
-  return {{"visibility_km", air.visibility_km},
-          {"temperature_c", air.temperature_c},
-          {"pressure_kpa", air.pressure_kpa},
-          {"relative_humidity_percent", air.relative_humidity},
-          {"wavelength_nm", air.wavelength_nm},
-          {"aerosol_per_km", choice.parts.aerosol},
-          {"rayleigh_per_km", choice.parts.rayleigh},
-          {"water_vapour_per_km", choice.parts.water_vapour},
-          {"mixed_gases_per_km", choice.parts.mixed_gases},
-          {"extinction_per_km", choice.per_km},
-          {"two_way_transmission_of_1_km", twoWayTransmission(choice.per_km, 1000.0)}};
+const Fields<RadiometricModel>& radiometricModelFields() {
+  using M = RadiometricModel;
+  static const Fields<M> fields(
+      "model", "Corrected intensity is that at the reference range, at normal incidence.",
+      {{"range_exponent", &M::range_exponent, "Exponent of the range", knownNotNegative},
+       {"incidence_exponent", &M::incidence_exponent, "Exponent of its cosine", knownNotNegative},
+       {"extinction_per_km", &M::extinction_per_km, "Extinction of the air, one way",
+        knownNotNegative},
+       {"reference_range_m", &M::reference_range, "Reference range", knownNotNegative},
+       {"largest_incidence_deg", &M::largest_incidence, "Limit of the angle", knownNotNegative}});
+  return fields;
 }
 
-Json termJson(const EstimatedTerm& term) {
-  Json json = {{"value", term.value}, {"status", nameOf(term.status)}};
-  if (term.status == TermStatus::estimated) {
-    json["std"] = number(term.std);
-    json["std_formal"] = number(term.std_formal);
-  }
-  if (!term.reason.empty()) json["reason"] = term.reason;
-  return json;
+const Fields<ExtinctionChoice>& atmosphereFields() {
+  using A = Atmosphere;
+  using C = ExtinctionChoice;
+  using E = Extinction;
+  static const Fields<A> air(
+      "air", "State of the air.",
+      {{"visibility_km", &A::visibility_km, "Meteorological range"},
+       {"temperature_c", &A::temperature_c, "Temperature"},
+       {"pressure_kpa", &A::pressure_kpa, "Pressure"},
+       {"relative_humidity_percent", &A::relative_humidity, "Relative humidity"},
+       {"wavelength_nm", &A::wavelength_nm, "Wavelength of the laser"}});
+  static const Fields<E> parts("extinction", "Extinction by its causes.",
+                               {{"aerosol_per_km", &E::aerosol, "By aerosol"},
+                                {"rayleigh_per_km", &E::rayleigh, "By molecules"},
+                                {"water_vapour_per_km", &E::water_vapour, "By water vapour"},
+                                {"mixed_gases_per_km", &E::mixed_gases, "By other gases"}});
+  const auto computed = [](const C& c) { return c.air.has_value(); };
+  static const Fields<C> fields(
+      "atmosphere", "Source of the extinction.",
+      {{"source", &C::remark, "What it is from, if it is not computed from the state of the air",
+        onlyIf([](const C& c) { return !c.air; })},
+       Field<C>::all([](const C& c) -> const A& { return *c.air; }, air, onlyIf(computed)),
+       Field<C>::all(&C::parts, parts, onlyIf(computed)),
+       {"extinction_per_km", &C::per_km, "Extinction, one way"},
+       {"two_way_transmission_of_1_km",
+        [](const C& c) { return twoWayTransmission(c.per_km, 1e3); },
+        "Share of the light that is left after 1 km there and back", onlyIf(computed)}});
+  return fields;
 }
 
-Json variationJson(const CellVariation& variation) {
-  return {{"median", variation.median}, {"rms", variation.rms}, {"p90", variation.p90}};
+/// A term or gain with its unit or strip.
+struct NamedTerm {
+  EstimatedTerm term;
+  std::string name;
+};
+
+const Fields<EstimatedTerm>& termFields() {
+  using T = EstimatedTerm;
+  using Status = TermStatus;
+  const auto estimated = onlyIf([](const T& term) { return term.status == Status::estimated; });
+  static const Fields<T> fields(
+      "estimate", "A parameter of the intensities.",
+      {{"value", &T::value, "Value that is used", knownNotNegative},
+       {"status", &T::status,
+        FieldNames<Status>(nameOf, {Status::fixed, Status::estimated, Status::not_estimable}),
+        "Whether it was estimated", mayBeMissing},
+       {"std", &T::std, "Standard deviation; that of a gain is relative", estimated},
+       {"std_formal", &T::std_formal, "The same with independent cells", estimated},
+       {"reason", &T::reason, "Why it is not estimable", unlessEmpty}});
+  return fields;
 }
 
-Json overlapJson(const OverlapResult& overlaps, double cell_size) {
-  Json correlation = Json::array();
-  for (int row = 0; row < overlaps.correlation.rows(); ++row) {
-    Json line = Json::array();
-    for (int column = 0; column < overlaps.correlation.cols(); ++column)
-      line.push_back(number(overlaps.correlation(row, column)));
-    correlation.push_back(line);
-  }
-  return {{"cell_m", cell_size},
-          {"cells", overlaps.cells},
-          {"observations", overlaps.observations},
-          {"clusters", overlaps.clusters},
-          {"sigma0_relative", overlaps.sigma0},
-          {"iterations", overlaps.iterations},
-          {"converged", overlaps.converged},
-          {"correlation", {{"order", overlaps.order}, {"matrix", correlation}}},
-          {"coefficient_of_variation",
-           {{"before", variationJson(overlaps.before)},
-            {"given_model", variationJson(overlaps.physics)},
-            {"after", variationJson(overlaps.after)}}}};
-}
-
-Json estimatesJson(const IntensityReport& report) {
-  Json terms, gains = Json::array();
-  const RadiometricModel& model = report.result->run->model();
+NamedValues<NamedTerm> termsOf(const Report& report) {
+  NamedValues<NamedTerm> terms;
   for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {
     const auto term = static_cast<RadiometricTerm>(t);
-    Json json = report.result->overlaps
-                    ? termJson(report.result->overlaps->terms[t])
-                    : Json{{"value", valueOf(term, model)}, {"status", "fixed"}};
-    json["unit"] = unitOf(term);
-    terms[nameOf(term)] = json;
+    EstimatedTerm value;
+    value.value = valueOf(term, report.result->run->model());
+    if (report.result->overlaps) value = report.result->overlaps->terms[t];
+    terms.push_back({nameOf(term), {value, unitOf(term)}});
   }
-  for (std::size_t i = 0; i < report.result->run->strips().size(); ++i) {
-    Json json = {{"strip", report.result->run->strips()[i]}};
-    if (report.result->overlaps)
-      json.update(termJson(report.result->overlaps->gains[i]));
-    else
-      json.update(Json{{"value", report.result->run->estimatedGains()[i]}, {"status", "fixed"}});
-    gains.push_back(json);
-  }
-  return {{"terms", terms}, {"strip_gains", gains}};
+  return terms;
 }
 
-Json referenceJson(const IntensityReport& report) {
-  Json json = {{"constant", report.result->run->constant()}};
-  if (!report.result->reference) return json;
-  json["relative_std"] = report.result->reference->relative_std;
-  json["relative_rms"] = report.result->reference->relative_rms;
-  json["targets"] = Json::array();
-  for (const ReferenceResult::Target& t : report.result->reference->targets) {
-    json["targets"].push_back({{"id", t.id},
-                               {"points", t.points},
-                               {"used", t.used},
-                               {"reflectance", t.reflectance},
-                               {"measured", t.measured},
-                               {"relative_std", t.relative_std}});
+std::vector<NamedTerm> gainsOf(const Report& report) {
+  const IntensityRun& run = *report.result->run;
+  std::vector<NamedTerm> gains;
+  for (std::size_t i = 0; i < run.strips().size(); ++i) {
+    EstimatedTerm value;
+    value.value = run.estimatedGains()[i];
+    if (report.result->overlaps) value = report.result->overlaps->gains[i];
+    gains.push_back({value, run.strips()[i]});
   }
-  return json;
+  return gains;
 }
 
-Json statisticsJson(const RunningStatistics& s, double scale) {
-  return {{"points", s.count()},
-          {"mean", s.mean()},
-          {"std", s.standardDeviation()},
-          {"variance_to_mean", scale * varianceToMean(s)}};
+const Fields<NamedTerm>& gainFields() {
+  static const Fields<NamedTerm> fields("gain", "Factor of what a strip received.",
+                                        {{"strip", &NamedTerm::name, "Name of the strip"},
+                                         Field<NamedTerm>::all(&NamedTerm::term, termFields())});
+  return fields;
 }
 
-Json pairJson(const BeforeAfter& pair, double scale) {
-  return {{"before", statisticsJson(pair.before, 1.0)},
-          {"after", statisticsJson(pair.after, scale)}};
+const Fields<OverlapResult>& overlapFields() {
+  using O = OverlapResult;
+  using V = CellVariation;
+  static const Fields<O> correlation("correlation", "Correlations of the estimates.",
+                                     {{"order", &O::order, "Terms, then gains of strips"},
+                                      {"matrix", &O::correlation, "Correlations"}});
+  static const Fields<V> variation("variation", "Coefficient of variation of cells.",
+                                   {{"median", &V::median, "Median"},
+                                    {"rms", &V::rms, "Root mean square"},
+                                    {"p90", &V::p90, "90th percentile"}});
+  static const Fields<O> variations("variations", "Coefficients of variation by correction.",
+                                    {{"before", &O::before, variation, "Without correction"},
+                                     {"given_model", &O::physics, variation, "The given model"},
+                                     {"after", &O::after, variation, "This result"}});
+  static const Fields<O> fields(
+      "overlap", "Comparison of overlapping strips.",
+      {{"cells", &O::cells, "Number of cells"},
+       {"observations", &O::observations, "Number of means of strips in cells"},
+       {"clusters", &O::clusters, "Groups of cells that share errors"},
+       {"sigma0_relative", &O::sigma0, "Relative standard deviation of a mean of five points"},
+       {"iterations", &O::iterations, "Number of iterations"},
+       {"converged", &O::converged, "Whether the adjustment converged"},
+       {"correlation", kSameObject, correlation, "Correlations"},
+       {"coefficient_of_variation", kSameObject, variations, "Of strips in a cell"}});
+  return fields;
 }
 
-Json slopesJson(const std::function<BeforeAfter(std::size_t)>& of, double scale) {
-  Json slopes = Json::array();
-  for (std::size_t bin = 0; bin <= IntensityStatistics::kSlopeBins; ++bin) {
-    const BeforeAfter pair = of(bin);
-    if (pair.before.count() == 0) continue;
-    Json json = pairJson(pair, scale);
-    const double from = IntensityStatistics::kSlopeStep * static_cast<double>(bin);
-    const bool surface = bin < IntensityStatistics::kSlopeBins;
-    json["slope_from_deg"] = surface ? Json(from) : Json(nullptr);
-    json["slope_to_deg"] = surface ? Json(from + IntensityStatistics::kSlopeStep) : Json(nullptr);
-    slopes.push_back(json);
-  }
-  return slopes;
+const Fields<Report>& radiometricEstimateFields() {
+  using F = Field<Report>;
+  using R = ReferenceResult;
+  using T = R::Target;
+  static const Fields<T> target(
+      "target", "A target of known reflectance.",
+      {{"id", &T::id, "Name of the target"},
+       {"points", &T::points, "Points on it"},
+       {"used", &T::used, "Whether it was used"},
+       {"reflectance", &T::reflectance, "Reflectance that is given"},
+       {"measured", &T::measured, "Reflectance from the points"},
+       {"relative_std", &T::relative_std, "Relative standard deviation of the points' median"}});
+  static const Fields<R> targets("targets", "Factor to reflectance from targets.",
+                                 {{"relative_std", &R::relative_std, "Of the constant"},
+                                  {"relative_rms", &R::relative_rms, "Of used targets"},
+                                  {"targets", &R::targets, target, "Targets"}});
+  static const Fields<Report> reference(
+      "reflectance", "Factor to reflectance.",
+      {{"constant", [](const Report& r) { return r.result->run->constant(); },
+        "Corrected intensity of reflectance 1; 0: not known"},
+       F::all([](const Report& r) -> const R& { return *r.result->reference; }, targets,
+              onlyIf([](const Report& r) { return r.result->reference.has_value(); }))});
+  static const Fields<Report> overlaps(
+      "overlaps", "Estimates from overlapping strips.",
+      {{"cell_m", [](const Report& r) { return r.result->run->cellSize(); }, "Size of a cell"},
+       F::all(
+           [](const Report& r) -> const auto& { return *r.result->overlaps; }, overlapFields())});
+  static const Fields<NamedTerm> term("term", "A term of the model.",
+                                      {Field<NamedTerm>::all(&NamedTerm::term, termFields()),
+                                       {"unit", &NamedTerm::name, "Unit of its values"}});
+  static const Fields<Report> fields(
+      "estimates", "What was estimated.",
+      {{"terms", termsOf, term, "Terms of the model"},
+       {"strip_gains", gainsOf, gainFields(), "Gains of the strips"},
+       {"overlaps", kSameObject, overlaps, "From overlapping strips",
+        onlyIf([](const Report& r) { return r.result->overlaps.has_value(); })},
+       {"reflectance", kSameObject, reference, "Factor to reflectance"}});
+  return fields;
 }
 
-Json histogramJson(const IntensityHistogram& histogram) {
-  // As many bins of whole numbers as give about 128 up to the largest value.
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < histogram.before.size(); ++i)
-    if (histogram.before[i] + histogram.after[i] > 0) last = i;
-  const std::size_t width = last / 128 + 1;
-  Json before = Json::array(), after = Json::array();
-  for (std::size_t bin = 0; bin <= last; bin += width) {
-    std::uint64_t b = 0, a = 0;
-    for (std::size_t i = bin; i < std::min(bin + width, histogram.before.size()); ++i)
-      b += histogram.before[i], a += histogram.after[i];
-    before.push_back(b);
-    after.push_back(a);
-  }
-  return {{"bin_width", width}, {"before", before}, {"after", after}};
-}
+/// A file of the run.
+struct FileOf {
+  const Report* report;
+  std::size_t index;
+  const IntensityCounts& counts() const { return report->result->outcome.counts[index]; }
+};
 
-Json reportJson(const IntensityReport& report) {
-  const IntensityStatistics& statistics = report.result->outcome.statistics;
-  const double scale = meanScale(statistics.all());
-  Json json;
-  json["note"] =
-      "after: corrected intensity without output_scale; its variance_to_mean is brought to the "
-      "mean "
-      "before of all points, under strips to that of the strip";
-  json["all"] = pairJson(statistics.all(), scale);
-  json["slopes"] = slopesJson([&](std::size_t bin) { return statistics.slope(bin); }, scale);
-  json["classes"] = Json::array();
-  for (int code = 0; code < 256; ++code) {
-    const BeforeAfter& pair = statistics.classOf(static_cast<std::uint8_t>(code));
-    if (pair.before.count() == 0) continue;
-    Json entry = {{"class", code}};
-    entry.update(pairJson(pair, scale));
-    json["classes"].push_back(entry);
-  }
-  json["strips"] = Json::array();
-  for (std::size_t i = 0; i < statistics.strips(); ++i) {
-    Json entry = {{"strip", report.result->run->strips()[i]}};
-    const double own = meanScale(statistics.strip(i));
-    entry.update(pairJson(statistics.strip(i), own));
-    entry["slopes"] =
-        slopesJson([&](std::size_t bin) { return statistics.stripSlope(i, bin); }, own);
-    entry["histogram"] = histogramJson(report.result->outcome.histograms[i]);
-    json["strips"].push_back(entry);
-  }
-  return json;
-}
-
-Json filesJson(const IntensityReport& report) {
-  Json files = Json::array();
-  for (std::size_t i = 0; i < report.result->run->files(); ++i) {
-    const IntensityCounts& counts = report.result->outcome.counts[i];
-    Json status;
-    for (std::size_t k = 0; k < kRadiometryStatusCount; ++k)
-      status[nameOf(static_cast<RadiometryStatus>(k))] = counts.status[k];
-    files.push_back({{"input", report.result->run->input(i).path()},
-                     {"output", report.outputs[i]},
-                     {"points", counts.points},
-                     {"points_by_status", status},
-                     {"points_of_strips_not_chosen", counts.excluded},
-                     {"zero_intensity", counts.zeros},
-                     {"saturated_before", counts.saturated},
-                     {"clipped_after", counts.clipped},
-                     {"rounded_to_zero_after", counts.rounded_to_zero}});
-  }
+std::vector<FileOf> filesOf(const Report& report) {
+  std::vector<FileOf> files;
+  for (std::size_t i = 0; i < report.result->run->files(); ++i) files.push_back({&report, i});
   return files;
 }
 
-double positive(const Json& json, const char* name, const std::string& file) {
-  const auto at = json.find(name);
-  if (at == json.end() || !at->is_number() || at->get<double>() < 0.0)
-    throw InputError(file + ": '" + name + "' is not a number of 0 or more");
-  return at->get<double>();
+NamedValues<std::uint64_t> statusOf(const FileOf& file) {
+  NamedValues<std::uint64_t> points;
+  for (std::size_t k = 0; k < kRadiometryStatusCount; ++k)
+    points.emplace_back(nameOf(static_cast<RadiometryStatus>(k)), file.counts().status[k]);
+  return points;
+}
+
+const Fields<FileOf>& intensityFileFields() {
+  using C = IntensityCounts;
+  using F = FileOf;
+  static const Fields<C> counts(
+      "counts", "Points of a file.",
+      {{"points_of_strips_not_chosen", &C::excluded, "Points that stay as they are"},
+       {"zero_intensity", &C::zeros, "Points with an intensity of 0"},
+       {"saturated_before", &C::saturated, "Points with the largest intensity"},
+       {"clipped_after", &C::clipped, "Points that exceed 65535 after the correction"},
+       {"rounded_to_zero_after", &C::rounded_to_zero, "Points that become 0"}});
+  static const Fields<F> fields(
+      "file", "A file of the run.",
+      {{"input", [](const F& f) { return f.report->result->run->input(f.index).path(); }, "File"},
+       {"output", [](const F& f) { return f.report->outputs[f.index]; }, "Corrected file"},
+       {"points", [](const F& f) { return f.counts().points; }, "Number of points"},
+       {"points_by_status", statusOf, "Points by what was corrected"},
+       Field<F>::all([](const F& f) -> const C& { return f.counts(); }, counts)});
+  return fields;
+}
+
+std::string toolVersion(const Report&) {
+  return PCL_ALS_VERSION;
+}
+const RadiometricModel& modelOf(const Report& report) {
+  return report.result->run->model();
+}
+double outputScale(const Report& report) {
+  return report.output.scale;
+}
+double saturationOf(const Report& report) {
+  return report.result->run->saturation();
+}
+bool usesEchoEnergy(const Report& report) {
+  return report.result->run->settings().echo_energy;
+}
+std::vector<ExcludedPoints> excludedOf(const Report& report) {
+  return report.result->excluded;
+}
+std::vector<std::string> warningTexts(const Report& report) {
+  return textsOf(report.result->warnings);
 }
 
 }  // namespace
 
-std::string intensityJson(const IntensityReport& report) {
-  Json json = {{"format", kFormat}, {"version", 1}, {"tool_version", PCL_ALS_VERSION}};
-  json["model"] = modelJson(report.result->run->model());
-  json["atmosphere"] = atmosphereJson(report.extinction);
-  json.update(estimatesJson(report));
-  if (report.result->overlaps)
-    json["overlaps"] = overlapJson(*report.result->overlaps, report.result->run->cellSize());
-  json["reflectance"] = referenceJson(report);
-  json["output_scale"] = report.output.scale;
-  json["saturation"] = report.result->run->saturation();
-  json["echo_energy"] = report.result->run->settings().echo_energy;
-  json["files"] = filesJson(report);
-  json["left_out"] = excludedJson(report.result->excluded);
-  json["warnings"] = textsOf(report.result->warnings);
-  json["report"] = reportJson(report);
-  return json.dump(1) + "\n";
+const FieldTable& intensityFields() {
+  using F = Field<Report>;
+  static const Fields<Report> fields(
+      "intensity", "Result of `pcl_als_intensity`.",
+      {F::constant("format", kFormat, ""),
+       F::constant("version", 1, ""),
+       {"tool_version", toolVersion, "Version of pcl_als"},
+       {"model", modelOf, radiometricModelFields(), "Model of the correction"},
+       {"atmosphere", &Report::extinction, atmosphereFields(), "Source of the extinction"},
+       F::all(kSameObject, radiometricEstimateFields()),
+       {"output_scale", outputScale, "Factor on corrected intensities in the files"},
+       {"saturation", saturationOf, "Intensity from which on points are saturated"},
+       {"echo_energy", usesEchoEnergy, "Whether energies of echoes replace intensities"},
+       {"files", filesOf, intensityFileFields(), "Files"},
+       {"left_out", excludedOf, excludedFields(), "Points that stay as they are"},
+       {"warnings", warningTexts, "What a user should know"},
+       {"report", kSameObject, intensityEffectFields(), "Effect of the correction"}});
+  return fields;
 }
 
-void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report) {
-  writeFile(path, intensityJson(report));
+std::string intensityJson(const Report& report) {
+  return jsonText(intensityFields().write(&report));
 }
 
 StoredRadiometry readIntensityJson(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  const Json json = Json::parse(readWholeFile(path, kJsonLimits), nullptr, false);
-  if (json.is_discarded() || !json.is_object() || json.value("format", "") != kFormat ||
-      json.value("version", 0) != 1 || !json.contains("model") || !json["model"].is_object())
-    throw InputError(name + ": is no result of pcl_als_intensity, version 1");
+  const FieldValue file = parseJson(readWholeFile(path, kJsonLimits), path.string());
+  const FieldNode root(file, path.string());
+  if (!root.has("format") || root["format"].text() != kFormat || root["version"].whole() != 1)
+    root.refuse("is no result of pcl_als_intensity, version 1");
   StoredRadiometry stored;
-  const Json& model = json["model"];
-  stored.model.range_exponent = positive(model, "range_exponent", name);
-  stored.model.incidence_exponent = positive(model, "incidence_exponent", name);
-  stored.model.extinction_per_km = positive(model, "extinction_per_km", name);
-  stored.model.reference_range = positive(model, "reference_range_m", name);
-  stored.model.largest_incidence = positive(model, "largest_incidence_deg", name);
-  if (json.contains("strip_gains") && json["strip_gains"].is_array()) {
-    for (const Json& gain : json["strip_gains"]) {
-      if (!gain.is_object() || !gain.contains("strip") || !gain["strip"].is_string())
-        throw InputError(name + ": a strip gain names no strip");
-      const double value = positive(gain, "value", name);
-      if (value <= 0.0) throw InputError(name + ": a strip gain is 0");
-      stored.gains[gain["strip"].get<std::string>()] = value;
+  radiometricModelFields().read(stored.model, root["model"]);
+  if (root.has("strip_gains")) {
+    for (const FieldNode& node : root["strip_gains"].items()) {
+      NamedTerm gain;
+      gainFields().read(gain, node);
+      if (gain.term.value == 0.0) node["value"].refuse("must not be 0");
+      stored.gains[gain.name] = gain.term.value;
     }
   }
-  if (json.contains("reflectance") && json["reflectance"].is_object())
-    stored.constant = positive(json["reflectance"], "constant", name);
-  stored.echo_energy = json.contains("echo_energy") && json["echo_energy"] == true;
+  stored.echo_energy = root.has("echo_energy") && root["echo_energy"].truth();
+  if (!root.has("reflectance")) return stored;
+  const FieldNode constant = root["reflectance"]["constant"];
+  stored.constant = constant.number();
+  if (stored.constant < 0.0) constant.refuse("must not be negative");
   return stored;
 }
 

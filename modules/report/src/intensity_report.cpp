@@ -4,52 +4,12 @@
 #include <iomanip>
 #include <sstream>
 
-#include <pcl_als/common/atomic_file.h>
-#include <pcl_als/common/class_name.h>
-#include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/report/intensity_report.h>
 
 namespace pcl_als {
 namespace {
-
-/// Points, means, standard deviations, variance-to-mean ratios, change.
-constexpr const char* kPairHeader =
-    "points,mean_before,std_before,mean_after,std_after,variance_to_mean_before,"
-    "variance_to_mean_after,change_percent\n";
-
-/// A table in CSV: a name, then figures before and after.
-class Table {
- public:
-  explicit Table(const char* first) { csv_ << first << ',' << kPairHeader << std::setprecision(6); }
-  void add(const std::string& name, const BeforeAfter& pair, double scale) {
-    if (pair.before.count() == 0) return;
-    const double before = varianceToMean(pair.before), after = scale * varianceToMean(pair.after);
-    csv_ << name << ',' << pair.before.count() << ',' << pair.before.mean() << ','
-         << pair.before.standardDeviation() << ',' << pair.after.mean() << ','
-         << pair.after.standardDeviation() << ',' << before << ',' << after << ','
-         << (before > 0.0 ? 100.0 * (after / before - 1.0) : 0.0) << '\n';
-  }
-  std::string text() const { return csv_.str(); }
-
- private:
-  std::ostringstream csv_;
-};
-
-std::string histogramsCsv(const IntensityReport& report) {
-  std::ostringstream csv;
-  csv << "strip,intensity,before,after\n";
-  for (std::size_t strip = 0; strip < report.result->outcome.histograms.size(); ++strip) {
-    const IntensityHistogram& histogram = report.result->outcome.histograms[strip];
-    for (std::size_t i = 0; i < histogram.before.size(); ++i) {
-      if (histogram.before[i] + histogram.after[i] == 0) continue;
-      csv << report.result->run->strips()[strip] << ',' << i << ',' << histogram.before[i] << ','
-          << histogram.after[i] << '\n';
-    }
-  }
-  return csv.str();
-}
 
 void variationLine(const char* name, const CellVariation& v, std::ostream& out) {
   out << "  " << std::left << std::setw(32) << name << std::right << std::fixed
@@ -83,17 +43,6 @@ std::string extinctionText(const ExtinctionChoice& choice) {
   }
   text << ", two-way transmission of 1 km " << twoWayTransmission(choice.per_km, 1000.0);
   return text.str();
-}
-
-std::string slopeName(std::size_t bin) {
-  if (bin >= IntensityStatistics::kSlopeBins) return "no surface";
-  const int step = static_cast<int>(IntensityStatistics::kSlopeStep);
-  const int from = step * static_cast<int>(bin);
-  return std::to_string(from) + "-" + std::to_string(from + step);
-}
-
-double meanScale(const BeforeAfter& all) {
-  return all.after.mean() > 0.0 ? all.before.mean() / all.after.mean() : 1.0;
 }
 
 std::string overlapText(const OverlapResult& overlaps, const std::vector<std::string>& strips) {
@@ -155,27 +104,6 @@ std::string countsText(const IntensityCounts& counts, const IntensityRun& run) {
     out << "  under 0.5 after correction: " << grouped(counts.rounded_to_zero)
         << " points, written as 0; a larger scale keeps them\n";
   return out.str();
-}
-
-void writeIntensityTables(const std::filesystem::path& folder, const IntensityReport& report) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder))
-    throw InputError(folder.string() + ": cannot make this folder");
-  const IntensityStatistics& statistics = report.result->outcome.statistics;
-  const double scale = meanScale(statistics.all());
-  Table slopes("slope_deg"), classes("class"), strips("strip");
-  for (std::size_t bin = 0; bin <= IntensityStatistics::kSlopeBins; ++bin)
-    slopes.add(slopeName(bin), statistics.slope(bin), scale);
-  for (int code = 0; code < 256; ++code)
-    classes.add(className(code), statistics.classOf(static_cast<std::uint8_t>(code)), scale);
-  for (std::size_t i = 0; i < statistics.strips(); ++i)
-    strips.add(report.result->run->strips()[i], statistics.strip(i),
-               meanScale(statistics.strip(i)));
-  writeFile(folder / "slopes.csv", slopes.text());
-  writeFile(folder / "classes.csv", classes.text());
-  writeFile(folder / "strips.csv", strips.text());
-  writeFile(folder / "histograms.csv", histogramsCsv(report));
 }
 
 }  // namespace pcl_als

@@ -2,19 +2,17 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/parameter_text.h>
+#include <pcl_als/io/json_text.h>
+#include <pcl_als/io/parameter_fields.h>
 #include <pcl_als/report/mounting_report.h>
 
 #include "formatted.h"
-#include "json_number.h"
 
 namespace pcl_als {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using namespace field;
 
 constexpr const char* kLeverNames[] = {"lever arm x", "lever arm y", "lever arm z"};
 
@@ -101,12 +99,124 @@ std::string subtractionText(const MountingReport& report) {
                    arcsec, 1e3 * shift, range, 1e3 * correction.subtracted_lever);
 }
 
+/// A mounting with the report that has it.
+struct ReportedMounting {
+  const Mounting* mounting;
+  bool lever_arm;
+  bool known() const { return lever_arm; }
+};
+
+/// One of the mountings of the correction.
+auto mountingAt(Mounting MountingCorrection::*member) {
+  return [member](const MountingReport& r) {
+    return ReportedMounting{&(r.correction.*member), r.input.lever_arm.has_value()};
+  };
+}
+
+const Fields<ReportedMounting>& mountingFields() {
+  using M = ReportedMounting;
+  static const Fields<M> fields(
+      "mounting_values", "A mounting.",
+      {{"angles", [](const M& m) { return m.mounting->angles; }, "In the unit of the convention"},
+       {"lever_arm_m", [](const M& m) { return m.mounting->lever_arm; }, "Lever arm",
+        knownIf(&M::known)}});
+  return fields;
+}
+
+std::vector<std::string> angleNames(const MountingConvention& convention) {
+  std::vector<std::string> names;
+  for (const MountingAngle& angle : convention.angles) names.push_back(angle.name);
+  return names;
+}
+
+const Fields<MountingConvention>& conventionFields() {
+  using C = MountingConvention;
+  static const Fields<C> fields(
+      "convention", "How the program states a mounting.",
+      {{"name", &C::name, "Name; empty: composed by the user"},
+       {"angles", angleNames, "Names of the angles as they are typed"},
+       {"unit", &C::unit, "Their unit"},
+       {"axes", &C::axes, "Directions of the axes of the body"},
+       {"definition", [](const C& c) { return describe(c); }, "The same as a sentence"}});
+  return fields;
+}
+
+Eigen::Vector3d stdAt(const MountingReport& report, int first) {
+  const MountingCorrection& c = report.correction;
+  return {c.std(first), c.std(first + 1), c.std(first + 2)};
+}
+
+const Fields<MountingReport>& mountingsFields() {
+  using C = MountingCorrection;
+  using F = Field<MountingReport>;
+  using R = MountingReport;
+  static const Fields<R> changed(
+      "new", "The mounting to be typed.",
+      {F::all(mountingAt(&C::after), mountingFields()),
+       {"lever_arm_to_add_m", [](const R& r) { return r.correction.after.lever_arm; },
+        "What is added to the lever arm, if it is not known",
+        onlyIf([](const R& r) { return !r.input.lever_arm; })},
+       {"angles_std", [](const R& r) { return stdAt(r, 0); }, "Standard deviations of the angles"},
+       {"lever_arm_std_m", [](const R& r) { return stdAt(r, 3); }, "And of the lever arm"},
+       {"body_from_scanner", [](const R& r) { return r.correction.matrix; },
+        "Matrix from the scanner to the axes of the body"},
+       {"gimbal_sine", [](const R& r) { return r.correction.gimbal_sine; },
+        "Sine of the angle between the first and the third axis"}});
+  static const Fields<R> subtracted(
+      "subtracted", "What subtracting the biases axis by axis would give.",
+      {F::all(mountingAt(&C::subtracted), mountingFields()),
+       {"wrong_by_arcsec", [](const R& r) { return r.correction.subtracted_angle; },
+        "Its rotation against the exact one", in(kRadiansPerArcsec)},
+       {"lever_arm_wrong_by_m", [](const R& r) { return r.correction.subtracted_lever; },
+        "Its lever arm against the exact one"}});
+  const auto order = [](const R& r) {
+    std::vector<std::string> names = angleNames(r.input.convention);
+    names.insert(names.end(), {"lever_arm_x", "lever_arm_y", "lever_arm_z"});
+    return names;
+  };
+  static const Fields<R> covariance(
+      "covariance", "Covariance of the new mounting.",
+      {{"order", order, "Angles and components of the lever arm"},
+       {"matrix", [](const R& r) { return r.correction.covariance; }, "Unit of the angles and m"}});
+  static const Fields<R> fields(
+      "mountings", "Old and new mounting.",
+      {{"old", mountingAt(&C::before), mountingFields(), "The mounting of the points"},
+       {"new", kSameObject, changed, "The mounting to be typed"},
+       {"covariance", kSameObject, covariance, "Its covariance"},
+       {"range_to_add_m", &R::range_correction, "To be added to measured ranges"},
+       {"scan_angle_factor", &R::scan_angle_factor, "By which scan angles are multiplied"},
+       {"subtracted", kSameObject, subtracted, "For comparison"}});
+  return fields;
+}
+
+const ParameterEstimate& estimateOf(const MountingReport& report, const SystemParameterInfo& info) {
+  return report.parameters[std::size_t(indexOf(info.parameter))];
+}
+
+const Fields<MountingReport>& biasesFields() {
+  using P = ParameterEstimate;
+  using R = MountingReport;
+  static const auto fields = fieldsByParameter<R>(
+      "parameters", "System parameters.", [](const SystemParameterInfo& info) -> Field<R> {
+        const auto unit = in(info.internal_per_unit);
+        const Fields<P> bias(
+            "parameter_" + std::string(info.unit), "A parameter of the calibration.",
+            {{"bias", &P::bias, "Assumed - true value", unit, of(info.unit)},
+             {"std", &P::std, "Standard deviation", unit, of(info.unit)},
+             unitField<P>(info.unit),
+             {"status", &P::status, parameterStatusNames(), "Whether it was estimated"}});
+        return {std::string(info.name),
+                [&info](const R& r) -> const P& { return estimateOf(r, info); }, bias, ""};
+      });
+  return fields;
+}
+
 std::string parameterTable(const MountingReport& report) {
   std::string text =
       "| bias (assumed - true) |        value |          std | unit   | status         |\n"
       "|-----------------------|--------------|--------------|--------|----------------|\n";
   for (const SystemParameterInfo& info : systemParameters()) {
-    const ParameterEstimate& estimate = report.parameters[std::size_t(indexOf(info.parameter))];
+    const ParameterEstimate& estimate = estimateOf(report, info);
     const int digits = tableDecimals(info.parameter);
     text += formatted("| %-21s | %12.*f | ", std::string(info.name).c_str(), digits,
                       estimate.bias / info.internal_per_unit) +
@@ -115,71 +225,6 @@ std::string parameterTable(const MountingReport& report) {
                       std::string(toString(estimate.status)).c_str());
   }
   return text;
-}
-
-Json vectorJson(const Eigen::Vector3d& v) {
-  return {number(v[0]), number(v[1]), number(v[2])};
-}
-
-Json matrixJson(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
-    Json row = Json::array();
-    for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(number(matrix(r, c)));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-Json namesJson(const MountingConvention& convention) {
-  Json names = Json::array();
-  for (const MountingAngle& angle : convention.angles) names.push_back(angle.name);
-  return names;
-}
-
-Json mountingValues(const MountingReport& report, const Mounting& mounting) {
-  Json json{{"angles", vectorJson(mounting.angles)}};
-  json["lever_arm_m"] = report.input.lever_arm ? vectorJson(mounting.lever_arm) : Json(nullptr);
-  return json;
-}
-
-Json conventionJson(const MountingConvention& convention) {
-  return {{"name", convention.name},
-          {"angles", namesJson(convention)},
-          {"unit", convention.unit},
-          {"axes", convention.axes},
-          {"definition", describe(convention)}};
-}
-
-Json newJson(const MountingReport& report) {
-  const MountingCorrection& correction = report.correction;
-  Json json = mountingValues(report, correction.after);
-  if (!report.input.lever_arm) json["lever_arm_to_add_m"] = vectorJson(correction.after.lever_arm);
-  json["angles_std"] = {number(correction.std(0)), number(correction.std(1)),
-                        number(correction.std(2))};
-  json["lever_arm_std_m"] = {number(correction.std(3)), number(correction.std(4)),
-                             number(correction.std(5))};
-  json["body_from_scanner"] = matrixJson(correction.matrix);
-  json["gimbal_sine"] = number(correction.gimbal_sine);
-  return json;
-}
-
-Json covarianceJson(const MountingReport& report) {
-  Json order = namesJson(report.input.convention);
-  for (const char* name : {"lever_arm_x", "lever_arm_y", "lever_arm_z"}) order.push_back(name);
-  return {{"order", std::move(order)}, {"matrix", matrixJson(report.correction.covariance)}};
-}
-
-Json biasesJson(const MountingReport& report) {
-  Json json = Json::object();
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const ParameterEstimate& estimate = report.parameters[std::size_t(indexOf(info.parameter))];
-    json[std::string(info.name)] = {{"bias", number(estimate.bias / info.internal_per_unit)},
-                                    {"std", number(estimate.std / info.internal_per_unit)},
-                                    {"unit", info.unit},
-                                    {"status", toString(estimate.status)}};
-  }
-  return json;
 }
 
 }  // namespace
@@ -205,28 +250,26 @@ std::string conventionsText() {
   return text;
 }
 
-std::string mountingJson(const MountingReport& report) {
-  const MountingCorrection& correction = report.correction;
-  Json root{{"format", "pcl_als mounting"}, {"version", 1}};
-  root["convention"] = conventionJson(report.input.convention);
-  if (!report.input.system.empty()) root["system"] = report.input.system;
-  root["old"] = mountingValues(report, correction.before);
-  root["new"] = newJson(report);
-  root["covariance"] = covarianceJson(report);
-  root["range_to_add_m"] = number(report.range_correction);
-  root["scan_angle_factor"] = number(report.scan_angle_factor);
-  root["subtracted"] = mountingValues(report, correction.subtracted);
-  root["subtracted"]["wrong_by_arcsec"] = number(correction.subtracted_angle / kRadiansPerArcsec);
-  root["subtracted"]["lever_arm_wrong_by_m"] = number(correction.subtracted_lever);
-  root["parameters"] = biasesJson(report);
-  root["remarks"] = report.remarks;
-  root["inputs"] = {report.calibration};
-  root["tool_version"] = PCL_ALS_VERSION;
-  return root.dump(2) + "\n";
+const FieldTable& mountingReportFields() {
+  using F = Field<MountingReport>;
+  using R = MountingReport;
+  static const Fields<R> fields(
+      "mounting", "Result of `pcl_als_mounting`.",
+      {F::constant("format", "pcl_als mounting", ""),
+       F::constant("version", 1, ""),
+       {"convention", [](const R& r) { return r.input.convention; }, conventionFields(),
+        "How the program states a mounting"},
+       {"system", [](const R& r) { return r.input.system; }, "One of several systems", unlessEmpty},
+       F::all(kSameObject, mountingsFields()),
+       {"parameters", kSameObject, biasesFields(), "Of the calibration"},
+       {"remarks", &R::remarks, "What a user should know"},
+       {"inputs", [](const R& r) { return std::vector{r.calibration}; }, "The calibration"},
+       {"tool_version", [](const R&) { return PCL_ALS_VERSION; }, "Version of pcl_als"}});
+  return fields;
 }
 
-void writeMounting(const std::filesystem::path& path, const MountingReport& report) {
-  writeFile(path, mountingJson(report));
+std::string mountingJson(const MountingReport& report) {
+  return jsonText(mountingReportFields().write(&report));
 }
 
 }  // namespace pcl_als

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/fields.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/image_block_io.h>
@@ -253,10 +252,6 @@ const FieldTable& orientationFields() {
 
 std::string orientationJson(const ImageOrientationResult& result) {
   return jsonText(orientationFields().write(&result));
-}
-
-void writeOrientation(const std::filesystem::path& path, const ImageOrientationResult& result) {
-  writeFile(path, orientationJson(result));
 }
 
 }  // namespace pcl_als

@@ -4,18 +4,15 @@
 #include <iomanip>
 #include <sstream>
 
-#include <nlohmann/json.hpp>
-
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/parameter_text.h>
+#include <pcl_als/io/json_text.h>
+#include <pcl_als/io/parameter_fields.h>
 #include <pcl_als/report/plan_report.h>
-
-#include "json_number.h"
 
 namespace pcl_als {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using namespace field;
 
 void lineTable(const FlightPlanResult& result, std::ostream& out) {
   out << "| line       | height m | course deg | length m | time s | swath m | per m2 |\n"
@@ -48,92 +45,125 @@ void parameterTable(const FlightPlanResult& result, std::ostream& out) {
   }
 }
 
-Json lineJson(const StripGeometry& line) {
-  return Json{{"id", line.id},
-              {"start_m", {line.start.x(), line.start.y()}},
-              {"end_m", {line.end.x(), line.end.y()}},
-              {"height_m", line.height},
-              {"course_deg", line.course() / kRadiansPerDegree},
-              {"length_m", line.length()},
-              {"duration_s", line.duration()},
-              {"speed_m_s", line.speed},
-              {"field_of_view_deg", 2.0 * line.half_angle / kRadiansPerDegree},
-              {"density_per_m2", line.density}};
+const Fields<StripGeometry>& plannedLineFields() {
+  using L = StripGeometry;
+  static const Fields<L> fields(
+      "line", "A flight line: straight, level, at constant speed.",
+      {{"id", &L::id, "Name of the line"},
+       {"start_m", &L::start, "Its start: east, north"},
+       {"end_m", &L::end, "Its end"},
+       {"height_m", &L::height, "Height above the mean ground"},
+       {"course_deg", &L::course, "Course, clockwise from grid north", in(kRadiansPerDegree)},
+       {"length_m", &L::length, "Length"},
+       {"duration_s", &L::duration, "Flying time"},
+       {"speed_m_s", &L::speed, "Speed", of("m/s")},
+       {"field_of_view_deg", [](const L& l) { return 2.0 * l.half_angle; }, "Field of view",
+        in(kRadiansPerDegree)},
+       {"density_per_m2", &L::density, "Pulses on the ground"}});
+  return fields;
 }
 
-Json parametersJson(const CalibrationResult& result) {
-  Json parameters = Json::object();
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const ParameterEstimate& estimate = result[info.parameter];
-    const bool estimated = estimate.status == ParameterStatus::estimated;
-    Json entry;
-    entry["std"] = estimated ? number(estimate.std / info.internal_per_unit) : Json(nullptr);
-    entry["unit"] = info.unit;
-    entry["status"] = toString(estimate.status);
-    if (!estimate.reason.empty()) entry["reason"] = estimate.reason;
-    parameters[std::string(info.name)] = std::move(entry);
-  }
-  return parameters;
+Fields<ParameterEstimate> expectedFields(const SystemParameterInfo& info) {
+  using P = ParameterEstimate;
+  return {"parameter_" + std::string(info.unit),
+          "What the flight will determine of a parameter.",
+          {{"std", &P::std, "Standard deviation", in(info.internal_per_unit), of(info.unit),
+            knownIf([](const P& p) { return p.status == ParameterStatus::estimated; })},
+           unitField<P>(info.unit),
+           {"status", &P::status, parameterStatusNames(), "Whether it will be estimated"},
+           {"reason", &P::reason, "Why not", unlessEmpty}}};
 }
 
-Json deviationsJson(const SystemVector& std) {
-  Json json = Json::object();
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const double value = std[indexOf(info.parameter)];
-    if (std::isfinite(value)) json[std::string(info.name)] = value / info.internal_per_unit;
-  }
-  return json;
+const Fields<CalibrationResult>& expectedParametersFields() {
+  using R = CalibrationResult;
+  static const auto fields = fieldsByParameter<R>(
+      "parameters", "System parameters.", [](const SystemParameterInfo& info) -> Field<R> {
+    return {std::string(info.name), [p = info.parameter](const R& r) -> const auto& {return r[p]; },
+                expectedFields(info), ""
+};
+});
+return fields;
 }
 
-Json adviceJson(const Advice& advice) {
-  Json json{{"text", advice.text}, {"benefit", number(advice.benefit)}};
-  if (advice.is_line) json["line"] = lineJson(advice.line);
-  if (!advice.is_line) {
-    json["control_m"] = Json::array();
-    for (const Eigen::Vector2d& place : advice.control) {
-      json["control_m"].push_back({place.x(), place.y()});
-    }
-  }
-  json["std_before"] = deviationsJson(advice.before);
-  json["std_after"] = deviationsJson(advice.after);
-  return json;
+const Fields<Advice>& adviceFields() {
+  using A = Advice;
+  static const Fields<A> fields(
+      "advice", "A line or control that would help.",
+      {{"text", &A::text, "The line or control and its benefit"},
+       {"benefit", &A::benefit, "Sum of ln(std before / std after)"},
+       {"line", &A::line, plannedLineFields(), "The line", onlyIf(&A::is_line)},
+       {"control_m", &A::control, "Places of the control: east, north",
+        onlyIf([](const A& a) { return !a.is_line; })},
+       {"std_before", &A::before, deviationFields(), "Standard deviations without it"},
+       {"std_after", &A::after, deviationFields(), "And with it"}});
+  return fields;
 }
 
-Json observabilityJson(const ObservabilityReport& report) {
-  Json json;
-  json["block"] = report.facts;
-  json["weak"] = Json::array();
-  for (const WeakCombination& weak : report.weak) {
-    Json names = Json::array();
-    for (const SystemParameter p : weak.parameters) names.push_back(infoOf(p).name);
-    json["weak"].push_back(Json{{"parameters", std::move(names)},
-                                {"correlation", number(weak.correlation)},
-                                {"cause", weak.cause},
-                                {"text", weak.text}});
-  }
-  json["directions"] = Json::array();
-  for (const ParameterDirection& direction : report.directions) {
-    json["directions"].push_back(
-        Json{{"std_on_ground_m", number(direction.std)}, {"text", direction.text}});
-  }
-  json["advice"] = Json::array();
-  for (const Advice& advice : report.advice) json["advice"].push_back(adviceJson(advice));
-  if (const Advice* cheapest = report.cheapestLine()) json["cheapest_line"] = adviceJson(*cheapest);
-  return json;
+std::vector<std::string> parameterNamesOf(const std::vector<SystemParameter>& parameters) {
+  std::vector<std::string> names;
+  for (const SystemParameter p : parameters) names.emplace_back(infoOf(p).name);
+  return names;
 }
 
-Json correlationJson(const CalibrationResult& result) {
-  Json order = Json::array(), matrix = Json::array();
-  for (const SystemParameter p : result.correlation_order) order.push_back(infoOf(p).name);
-  for (Eigen::Index r = 0; r < result.correlation.rows(); ++r) {
-    Json row = Json::array();
-    for (Eigen::Index c = 0; c < result.correlation.cols(); ++c) {
-      row.push_back(number(result.correlation(r, c)));
-    }
-    matrix.push_back(std::move(row));
-  }
-  return Json{{"order", std::move(order)}, {"matrix", std::move(matrix)}};
+const Fields<ObservabilityReport>& observabilityFields() {
+  using O = ObservabilityReport;
+  using W = WeakCombination;
+  static const Fields<W> weak(
+      "weak", "Parameters that cannot be separated, or one that is hardly determined.",
+      {{"parameters", [](const W& w) { return parameterNamesOf(w.parameters); }, "Their names"},
+       {"correlation", &W::correlation, "Correlation of two"},
+       {"cause", &W::cause, "What it is due to; empty: not known"},
+       {"text", &W::text, "The same as a sentence"}});
+  static const Fields<ParameterDirection> direction(
+      "direction", "A combination of parameters.",
+      {{"std_on_ground_m", &ParameterDirection::std, "Its effect on the ground"},
+       {"text", &ParameterDirection::text, "The same as a sentence"}});
+  static const Fields<O> fields("observability",
+                                "What is weakly determined, why, and what would help.",
+                                {{"block", &O::facts, "The block in words"},
+                                 {"weak", &O::weak, weak, "Weakest first"},
+                                 {"directions", &O::directions, direction, "Weakest first"},
+                                 {"advice", &O::advice, adviceFields(), "Best first"},
+                                 {"cheapest_line", [](const O& o) { return *o.cheapestLine(); },
+                                  adviceFields(), "Largest benefit for its flying time",
+                                  onlyIf([](const O& o) { return o.cheapestLine() != nullptr; })}});
+  return fields;
 }
+
+const Fields<FlightPlanResult>& planResultFields() {
+  using O = FlightPlanResult::Overlap;
+  using R = FlightPlanResult;
+  static const Fields<CalibrationResult> correlation(
+      "correlation", "Expected correlations.",
+      {{"order", [](const auto& c) { return parameterNamesOf(c.correlation_order); },
+        "The parameters"},
+       {"matrix", &CalibrationResult::correlation, "Correlations, in this order"}});
+  static const Fields<O> pair(
+      "pair", "Two lines that overlap.",
+      {{"a", &O::a, "First line"},
+       {"b", &O::b, "Second line"},
+       {"areas", &O::areas, "Areas of comparison"},
+       {"correspondences", [](const O& o) { return std::llround(o.pairs); }, "Expected number"}});
+  static const Fields<R> fields(
+      "plan_result", "What the flight will give.",
+      {{"determined", [](const R& r) { return r.expected.converged; },
+        "Whether all requested parameters will be determined"},
+       {"parameters", &R::expected, expectedParametersFields(), "System parameters"},
+       {"correlation", &R::expected, correlation, "Expected correlations"},
+       {"lines", &R::lines, plannedLineFields(), "The lines"},
+       {"pairs", &R::overlaps, pair, "Overlaps"},
+       {"control_points", &R::control_points, "Control points that a line covers"},
+       {"observability", &R::observability, observabilityFields(), "What would help"},
+       {"warnings", [](const R& r) { return textsOf(r.expected.warnings); },
+        "What a user should know"}});
+  return fields;
+}
+
+/// The content of plan.json.
+struct PlanReport {
+  const FlightPlanResult* result;
+  const std::vector<std::string>* inputs;
+};
 
 }  // namespace
 
@@ -150,33 +180,23 @@ std::string planTables(const FlightPlanResult& result) {
   return out.str();
 }
 
-std::string planJson(const FlightPlanResult& result, const std::vector<std::string>& inputs) {
-  Json root;
-  root["format"] = "pcl_als plan";
-  root["version"] = 1;
-  root["determined"] = result.expected.converged;
-  root["parameters"] = parametersJson(result.expected);
-  root["correlation"] = correlationJson(result.expected);
-  root["lines"] = Json::array();
-  for (const StripGeometry& line : result.lines) root["lines"].push_back(lineJson(line));
-  root["pairs"] = Json::array();
-  for (const auto& overlap : result.overlaps) {
-    root["pairs"].push_back(Json{{"a", overlap.a},
-                                 {"b", overlap.b},
-                                 {"areas", overlap.areas},
-                                 {"correspondences", std::llround(overlap.pairs)}});
-  }
-  root["control_points"] = result.control_points;
-  root["observability"] = observabilityJson(result.observability);
-  root["warnings"] = textsOf(result.expected.warnings);
-  root["inputs"] = inputs;
-  root["tool_version"] = PCL_ALS_VERSION;
-  return root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+const FieldTable& planFields() {
+  using F = Field<PlanReport>;
+  using R = PlanReport;
+  static const Fields<R> fields(
+      "plan", "Result of `pcl_als_plan`.",
+      {F::constant("format", "pcl_als plan", ""),
+       F::constant("version", 1, ""),
+       F::all(
+           [](const R& r) -> const auto& { return *r.result; }, planResultFields()),
+       {"inputs", [](const R& r) { return *r.inputs; }, "Files of the plan"},
+       {"tool_version", [](const R&) { return PCL_ALS_VERSION; }, "Version of pcl_als"}});
+  return fields;
 }
 
-void writePlan(const std::filesystem::path& path, const FlightPlanResult& result,
-               const std::vector<std::string>& inputs) {
-  writeFile(path, planJson(result, inputs));
+std::string planJson(const FlightPlanResult& result, const std::vector<std::string>& inputs) {
+  const PlanReport report{&result, &inputs};
+  return jsonText(planFields().write(&report));
 }
 
 std::string notDetermined(const CalibrationResult& expected) {

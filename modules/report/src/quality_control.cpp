@@ -137,31 +137,28 @@ const Fields<PatchAlignmentResult>& alignmentFields() {
   static const Fields<R> found("icpatch_result", "The movement that was found.", [] {
     std::vector<Field<R>> rows;
     for (int i = 0; i < R::kParameters; ++i) rows.push_back(parameterField(i));
-    for (Field<R> row : std::initializer_list<Field<R>>{
-             {"centroid_m", [](const R& r) -> const auto& { return r.motion.centroid; },
-              "Point that the movement is about: east, north, up"
-}
-, {"sigma0_m", &R::sigma0, "Standard deviation of a coordinate along a normal"},
-    {"pairs", &R::pairs, "Pairs of a point and a patch"},
-    {"redundancy", &R::redundancy, "Redundancy"},
-    {"iterations", [](const R& r) { return r.coarse_iterations + r.iterations; },
-     "Number of iterations"},
-    {"normal_before_m", &R::normal_before, distances, "Distances before the movement"}, {
-  "normal_after_m", &R::normal_after, distances, "Distances after"
-}
-})
-      rows.push_back(std::move(row));
-return rows;
-}());
-static const Fields<R> fields(
-    "icpatch", "Rigid movement of a onto b about the centroid of their overlap.",
-    {{"status", &R::status,
-      FieldNames<Status>(toString, {Status::converged, Status::not_converged, Status::too_few_pairs,
-                                    Status::no_overlap}),
-      "Whether it was found"},
-     {"message", &R::message, "Why it was not found", unlessEmpty},
-     Field<R>::all(kSameObject, found, onlyIf(&R::hasConverged))});
-return fields;
+    const std::vector<Field<R>> more = {
+        {"centroid_m", [](const R& r) { return r.motion.centroid; },
+         "Point that the movement is about: east, north, up"},
+        {"sigma0_m", &R::sigma0, "Standard deviation of a coordinate along a normal"},
+        {"pairs", &R::pairs, "Pairs of a point and a patch"},
+        {"redundancy", &R::redundancy, "Redundancy"},
+        {"iterations", [](const R& r) { return r.coarse_iterations + r.iterations; },
+         "Number of iterations"},
+        {"normal_before_m", &R::normal_before, distances, "Distances before the movement"},
+        {"normal_after_m", &R::normal_after, distances, "Distances after"}};
+    rows.insert(rows.end(), more.begin(), more.end());
+    return rows;
+  }());
+  static const Fields<R> fields(
+      "icpatch", "Rigid movement of a onto b about the centroid of their overlap.",
+      {{"status", &R::status,
+        FieldNames<Status>(toString, {Status::converged, Status::not_converged,
+                                      Status::too_few_pairs, Status::no_overlap}),
+        "Whether it was found"},
+       {"message", &R::message, "Why it was not found", unlessEmpty},
+       Field<R>::all(kSameObject, found, onlyIf(&R::hasConverged))});
+  return fields;
 }
 
 const Fields<ControlAssessment>& controlFields() {

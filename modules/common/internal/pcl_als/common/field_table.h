@@ -56,7 +56,7 @@ struct FieldType {
   std::vector<std::string> choices = {};  ///< the only texts; empty: any
   std::vector<FieldTable> table = {};     ///< of an object: one, or none where it is described
                                           ///< by its meaning alone
-  std::vector<FieldType> item = {};       ///< of a list: one
+  std::vector<FieldType> item = {};       ///< of a list, or of an object by names: one
   std::size_t length = 0;                 ///< of a list; 0: any
 };
 

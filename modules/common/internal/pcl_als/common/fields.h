@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,10 @@
 #include <pcl_als/common/field_table.h>
 
 namespace pcl_als {
+
+/// Values by names that a table does not have: an object of a file, in this order.
+template <typename V>
+using NamedValues = std::vector<std::pair<std::string, V>>;
 
 /// The names of the values of an enumeration in files.
 template <typename E>
@@ -63,6 +68,12 @@ template <typename V>
 struct IsList : std::false_type {};
 template <typename V>
 struct IsList<std::vector<V>> : std::true_type {};
+template <typename V>
+struct IsNamed : std::false_type {};
+template <typename V>
+struct IsNamed<NamedValues<V>> : std::true_type {};
+template <typename V>
+struct IsNamed<std::map<std::string, V>> : std::true_type {};
 template <typename V>
 inline constexpr bool kIsMatrix = std::is_base_of_v<Eigen::EigenBase<V>, V>;
 
@@ -112,12 +123,16 @@ struct PlainField {
   }
 };
 
-// A value, an optional one, or a list, whose single values a leaf writes and reads.
+// A value, an optional one, a list, or values by name, whose single values a leaf writes and reads.
 template <typename V, typename Leaf>
 FieldType typeOf(const Leaf& leaf) {
   if constexpr (IsOptional<V>::value) {
     FieldType type = typeOf<typename V::value_type>(leaf);
     type.nullable = true;
+    return type;
+  } else if constexpr (IsNamed<V>::value) {
+    FieldType type{FieldType::Kind::object};
+    type.item.push_back(typeOf<typename V::value_type::second_type>(leaf));
     return type;
   } else if constexpr (IsList<V>::value) {
     return listOf(typeOf<typename V::value_type>(leaf));
@@ -138,6 +153,10 @@ template <typename V, typename Leaf>
 FieldValue toValue(const V& value, const Leaf& leaf, const FieldRow& row) {
   if constexpr (IsOptional<V>::value) {
     return value ? toValue(*value, leaf, row) : FieldValue();
+  } else if constexpr (IsNamed<V>::value) {
+    FieldValue::Object object;
+    for (const auto& [name, item] : value) object.emplace_back(name, toValue(item, leaf, row));
+    return object;
   } else if constexpr (IsList<V>::value) {
     FieldValue::List list;
     list.reserve(value.size());
@@ -158,6 +177,13 @@ void fromNode(V& value, const Leaf& leaf, const FieldNode& node, const FieldRow&
   if constexpr (IsOptional<V>::value) {
     value.reset();
     if (!node.isNull()) fromNode(value.emplace(), leaf, node, row);
+  } else if constexpr (IsNamed<V>::value) {
+    value.clear();
+    for (const std::string& key : node.keys()) {
+      typename V::value_type::second_type read{};
+      fromNode(read, leaf, node[key], row);
+      value.insert(value.end(), {key, std::move(read)});
+    }
   } else if constexpr (IsList<V>::value) {
     value.clear();
     for (const FieldNode& item : node.items()) {
@@ -185,8 +211,8 @@ class Fields;
 /// \a access is a pointer to a member or to a const member function, or a function of a const S&; a
 /// field can be read if it returns a reference to a variable, as `[](auto& s) -> auto& { … }` does.
 /// Values may be truth values, whole and real numbers, texts, Eigen's vectors and matrices, values
-/// of an enumeration with its FieldNames, objects with their Fields, and std::optional and
-/// std::vector of these. Options are those of namespace field.
+/// of an enumeration with its FieldNames, objects with their Fields, and std::optional,
+/// std::vector, NamedValues and std::map (by name) of these. Options are those of namespace field.
 template <typename S>
 class Field : public FieldRow {
  public:

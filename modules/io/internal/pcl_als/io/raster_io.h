@@ -14,6 +14,10 @@
 #include <pcl_als/common/raster.h>
 
 namespace pcl_als {
+namespace detail {
+class OpenedRaster;
+class WrittenRaster;
+}  // namespace detail
 
 // Target pcl_als::io_raster, a library of its own: GDAL costs a program 35 MB and 70 ms at its
 // start, which tools that write no raster need not pay.
@@ -65,8 +69,7 @@ class RasterWriter {
   void commit();
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<detail::WrittenRaster> file_;
 };
 
 /** \brief Reads a GeoTIFF window by window.
@@ -99,8 +102,7 @@ class RasterReader {
                    std::uint8_t* values);
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<detail::OpenedRaster> file_;
 };
 
 /// Whole rasters that are in memory. InputError for a file that needs more than the machine has.
@@ -112,16 +114,5 @@ void writeCodeRaster(const std::filesystem::path& path, const CodeRaster& raster
 /// \param largest_side when positive: a raster with a longer side is reduced by a whole factor to
 /// the commonest class of each part, for pictures of rasters larger than memory
 CodeRaster readCodeRaster(const std::filesystem::path& path, int largest_side = 0);
-
-/// Pixels row by row from the top left, 3 (RGB) or 4 (RGBA) bytes each.
-struct PngImage {
-  int width = 0, height = 0, channels = 3;
-  std::vector<std::uint8_t> pixels;
-};
-
-/// A PNG that appears when it is complete; UsageError for an image whose pixels do not fit its
-/// size.
-void writePngImage(const std::filesystem::path& path, const PngImage& image);
-PngImage readPngImage(const std::filesystem::path& path);
 
 }  // namespace pcl_als

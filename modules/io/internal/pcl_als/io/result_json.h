@@ -21,6 +21,8 @@ CalibrationResult parseCalibration(const std::string& text, const std::string& n
 
 /// The description of calibration.json.
 const FieldTable& calibrationFields();
+/// The description of its part "instrument", which history.json has as well.
+const Fields<CalibrationResult>& calibrationInstrumentFields();
 /// The description of the entries of "left_out" in result files.
 const Fields<ExcludedPoints>& excludedFields();
 

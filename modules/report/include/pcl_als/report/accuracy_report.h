@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +37,6 @@ std::string accuracyText(const AccuracyReport& report);
 std::string accuracyJson(const AccuracyReport& report);
 /// The description of accuracy.json.
 const FieldTable& accuracyFields();
-void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& report);
 
 ConfusionMatrix matrixOf(const CountTable& table);
 

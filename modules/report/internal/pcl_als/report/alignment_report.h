@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,8 @@
 #include <pcl_als/registration/patch_alignment_result.h>
 
 namespace pcl_als {
+
+class FieldTable;
 
 /// Source and target of an alignment.
 struct AlignedStrips {
@@ -22,10 +23,8 @@ struct AlignedStrips {
 /// Table for the terminal: XT, YT, ZT (m), omega, phi, kappa (deg) and the fit of the strips.
 std::string alignmentTable(const PatchAlignmentResult& result);
 
-/// The result as JSON (module registration's README has the format).
+/// The description of the result as JSON.
+const FieldTable& icpatchFields();
 std::string alignmentJson(const PatchAlignmentResult& result, const AlignedStrips& strips);
-/// Writes alignmentJson() through AtomicFile.
-void writeAlignment(const std::filesystem::path& path, const PatchAlignmentResult& result,
-                    const AlignedStrips& strips);
 
 }  // namespace pcl_als

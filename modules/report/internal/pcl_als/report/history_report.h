@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,8 @@
 #include <pcl_als/report/report_origin.h>
 
 namespace pcl_als {
+
+class FieldTable;
 
 /// The content of history.json.
 struct HistoryReport {
@@ -24,9 +25,9 @@ std::vector<std::string> historyFindings(const CalibrationHistory& history);
 
 /// The tables that the tool prints.
 std::string historyText(const HistoryReport& report);
-/// The text of history.json; its part "instrument" has the form of that of calibration.json.
+/// The text of history.json, and its description.
 std::string historyJson(const HistoryReport& report);
-void writeHistory(const std::filesystem::path& path, const HistoryReport& report);
+const FieldTable& historyFields();
 
 /// report.html with a control chart of each parameter, report.md and tables as CSV.
 void writeHistoryPage(const ReportOrigin& origin, const HistoryReport& report);

@@ -13,6 +13,8 @@
 
 namespace pcl_als {
 
+class FieldTable;
+
 /// Source of the extinction.
 struct ExtinctionChoice {
   std::optional<Atmosphere> air;  ///< empty: given directly, switched off, or of another run
@@ -45,7 +47,8 @@ double meanScale(const BeforeAfter& all);
 
 /// model.json of a run; the help of the tool lists its content.
 std::string intensityJson(const IntensityReport& report);
-void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report);
+/// The description of model.json.
+const FieldTable& intensityFields();
 
 /// slopes.csv, classes.csv, strips.csv, histograms.csv, written into a folder that is made if
 /// missing.

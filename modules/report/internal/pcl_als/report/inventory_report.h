@@ -13,6 +13,8 @@
 
 namespace pcl_als {
 
+class FieldTable;
+
 /// The census as text; \a left_out: points that belong to none of its strips.
 std::string inventoryText(const DatasetInventory& survey,
                           const std::vector<ExcludedPoints>& excluded);
@@ -25,7 +27,8 @@ struct ListedTrajectory {
   FlightAssessment assessment;               ///< of points and trajectory together; may be empty
 };
 
-/// The census as JSON; its keys are those of the text, lengths in metres, times in seconds.
+/// The census as JSON, and its description.
+const FieldTable& inventoryFields();
 std::string inventoryJson(const DatasetInventory& survey,
                           const std::vector<ExcludedPoints>& excluded,
                           const ListedTrajectory& flight = {});

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +10,8 @@
 #include <pcl_als/trajectory/mounting_correction.h>
 
 namespace pcl_als {
+
+class FieldTable;
 
 /// What is known of the mounting with which the points of a calibration were computed.
 struct MountingInput {
@@ -42,8 +43,8 @@ MountingReport reportMounting(const CalibrationResult& calibration, const std::s
 std::string mountingText(const MountingReport& report);
 /// One line for each documented convention.
 std::string conventionsText();
-/// The text of mounting.json; angles in the unit of the convention, lengths in metres.
+/// The text of mounting.json, and its description.
 std::string mountingJson(const MountingReport& report);
-void writeMounting(const std::filesystem::path& path, const MountingReport& report);
+const FieldTable& mountingReportFields();
 
 }  // namespace pcl_als

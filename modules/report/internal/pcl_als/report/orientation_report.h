@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include <pcl_als/processing/image_orientation.h>
@@ -18,7 +17,5 @@ std::string orientationText(const ImageOrientationResult& result);
 std::string orientationJson(const ImageOrientationResult& result);
 /// The description of orientation.json.
 const FieldTable& orientationFields();
-/// Writes orientation.json (module photogrammetry's README has the format). Through AtomicFile.
-void writeOrientation(const std::filesystem::path& path, const ImageOrientationResult& result);
 
 }  // namespace pcl_als

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,14 +9,14 @@
 
 namespace pcl_als {
 
+class FieldTable;
+
 /// The expected results of a plan, as tables for a terminal.
 std::string planTables(const FlightPlanResult& result);
 
-/// The same as plan.json: {"format":"pcl_als plan","version":1,…}; lengths in metres, angles of
-/// parameters in arc-seconds, courses in degrees, times in seconds.
+/// The same as plan.json, and its description.
 std::string planJson(const FlightPlanResult& result, const std::vector<std::string>& inputs);
-void writePlan(const std::filesystem::path& path, const FlightPlanResult& result,
-               const std::vector<std::string>& inputs);
+const FieldTable& planFields();
 
 /// The parameters that a planned flight will not determine, with the reasons; empty: none.
 std::string notDetermined(const CalibrationResult& expected);

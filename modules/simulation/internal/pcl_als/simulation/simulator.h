@@ -62,7 +62,7 @@ class Simulator {
    * otherwise).
    *
    * The returns are those that the detector of discrete returns finds in the waveforms. A pulse
-   * without any is left out. Errors of the range that the detector makes (range walk, incidence)
+   * without any is excluded. Errors of the range that the detector makes (range walk, incidence)
    * are in the locations of the points, so that they do not move the waveform. The range noise of
    * NoiseOptions is one value for each pulse, the intensity noise is that of its energy.
    * \param truth with the backscatter of every pulse, which needs some 10 kB for each
