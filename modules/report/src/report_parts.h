@@ -12,7 +12,7 @@
 #include <pcl_als/drawing/block_map.h>
 #include <pcl_als/report/html_report.h>
 #include <pcl_als/report/report_origin.h>
-#include <pcl_als/survey/survey_observer.h>
+#include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
 

@@ -19,7 +19,6 @@
 #include <pcl_als/common/progress.h>
 #include <pcl_als/io/trajectory_io.h>
 #include <pcl_als/survey/strip_choice.h>
-#include <pcl_als/survey/survey_observer.h>
 #include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/trajectory.h>
 

@@ -11,7 +11,7 @@
 #include <pcl_als/common/progress.h>
 #include <pcl_als/processing/checked_block.h>
 #include <pcl_als/survey/strip_choice.h>
-#include <pcl_als/survey/survey_observer.h>
+#include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
 

@@ -8,7 +8,7 @@
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/lidar_return.h>
 #include <pcl_als/report/report_origin.h>
-#include <pcl_als/survey/survey_observer.h>
+#include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {

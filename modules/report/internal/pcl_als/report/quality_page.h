@@ -10,7 +10,7 @@
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/report/quality_report.h>
 #include <pcl_als/report/report_origin.h>
-#include <pcl_als/survey/survey_observer.h>
+#include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
 

@@ -255,4 +255,12 @@ class ReadingProgress {
   SurveyReader& survey_;
 };
 
+/// Receives the points that a job reads, for further maps and statistics; both may be empty.
+struct SurveyObserver {
+  /// Called when the strips have been chosen.
+  std::function<void(const SurveyReader& survey)> begin;
+  /// All points of one reading; from several threads for different strips.
+  SurveyReader::Sink points;
+};
+
 }  // namespace pcl_als
