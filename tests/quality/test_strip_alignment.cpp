@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/quality/strip_alignment.h>
+#include <pcl_als/registration/patch_alignment.h>
 
 #include "swath_scenes.h"
 
