@@ -7,6 +7,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/intensity_job.h>
+#include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/processing/waveform_job.h>
 
 #include "decomposed_file.h"
