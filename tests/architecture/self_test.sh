@@ -51,6 +51,11 @@ make_tree; echo 'int x;' >modules/tin/src/a.cpp; expect 1 "no SPDX line"
 make_tree; printf '//\n%.0s' {1..400} >>modules/tin/src/a.cpp; expect 1 "more than 400"
 make_tree; cp modules/tin/src/a.cpp modules/tin/src/forgotten.cpp; expect 1 "is not listed"
 make_tree; mkdir modules/extra; expect 1 "unknown module"
+make_tree; for i in {1..61}; do echo '// SPDX-License-Identifier: BSD-3-Clause' >modules/tin/include/pcl_als/x/h$i.h; done; expect 1 "installs 61 headers for users"
+make_tree; mkdir -p modules/tin/internal/pcl_als/tin; for i in {0..101}; do
+  { echo '// SPDX-License-Identifier: BSD-3-Clause'; echo "#include <pcl_als/tin/h$((i + 1)).h>"; } >modules/tin/internal/pcl_als/tin/h$i.h
+done
+{ echo '// SPDX-License-Identifier: BSD-3-Clause'; echo '#include <pcl_als/tin/h1.h>'; } >modules/tin/include/pcl_als/x/a.h; expect 1 "include 101 others"
 make_tree; rm modules/tin/README.md; expect 1 "has no README.md"
 make_tree; sed -i '/Limits/d' modules/tin/README.md; expect 1 "has no section Limits"
 make_tree; printf '| term |\n|---|\n' >share/GLOSSARY.md; expect 1 "has a table without"
