@@ -227,12 +227,22 @@ def quotations_of_intensity(page):
     yield "of # million # s;", [f"{int(points) / 1e6:.1f}", check.row("all")[0]]
 
 
+def quotations_of_waveforms(page):
+    """The same, for waveforms."""
+    forest = next(cells for cells in page("waveform.md").table() if cells[0] == "as above")
+    yield "decomposition finds # % more echoes", numbers(forest[3])[:1]
+    yield "same waveforms, # % of them false", numbers(forest[4])[:1]
+    yield "ground under # instead of # %", [numbers(forest[7])[0], numbers(forest[6])[0]]
+    yield ("on slopes of # degrees, # to # mm by the size",
+           page("waveform.md").sentence("systematic error** on slopes of #°, # to # mm by"))
+
+
 def quotations(root):
     """All of them."""
     def page(name, start=None):
         return Benchmark(root, name, start)
     for part in (quotations_of_parameters, quotations_of_points, quotations_of_strips,
-                 quotations_of_sources, quotations_of_intensity):
+                 quotations_of_sources, quotations_of_intensity, quotations_of_waveforms):
         yield from part(page)
 
 

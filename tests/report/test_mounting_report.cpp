@@ -137,7 +137,7 @@ TEST(MountingReport, GimbalLockInTextAndFile) {
   EXPECT_TRUE(remarks(report, "gimbal lock: "));
   EXPECT_NE(mountingText(report).find("|            - | arcsec |"), std::string::npos);
   const std::string json = mountingJson(report);
-  EXPECT_NE(json.find("\"angles_std\": [\n      null,"), std::string::npos);
+  EXPECT_NE(json.find("\"angles_std\": [\n   null,"), std::string::npos) << json;
   EXPECT_NE(json.find("\"lever_arm_m\": null"), std::string::npos);
   EXPECT_NE(json.find("\"lever_arm_to_add_m\""), std::string::npos);
 }
