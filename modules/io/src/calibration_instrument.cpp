@@ -63,14 +63,11 @@ Fields<ParameterEstimate> parameterFields(const SystemParameterInfo& info) {
 
 const Fields<Parameters>& parametersFields() {
   static const auto fields = fieldsByParameter<Parameters>(
-      "parameters", "The system parameters.",
-      [](const SystemParameterInfo& info) -> Field<Parameters> {
-    const int i = indexOf(info.parameter);
-    return {std::string(info.name), [i](auto& all) -> auto& {return all[i]; },
-                parameterFields(info), ""
-};
-});
-return fields;
+      "parameters", "The system parameters.", [](const SystemParameterInfo& info) {
+        return Field<Parameters>(std::string(info.name), ParameterElement(info.parameter),
+                                 parameterFields(info), "");
+      });
+  return fields;
 }
 
 const Fields<SystemEstimate>& systemFields() {
@@ -78,34 +75,30 @@ const Fields<SystemEstimate>& systemFields() {
   using F = Field<S>;
   static const auto differences = fieldsByParameter<SystemVector>(
       "difference_std", "Standard deviations of the differences from the first system.",
-      [](const SystemParameterInfo& info) -> Field<SystemVector> {
-    const int i = indexOf(info.parameter);
-    return {std::string(info.name), [i](auto& all) -> auto& {return all[i]; },
-                "",
-                in(info.internal_per_unit),
-                of(info.unit),
-                onlyIf([i](const SystemVector& all) {
-    return all[i] > 0.0; })
-};
-});
-static const Fields<S> fields =
-    Fields<S>("system", "One of several systems that were calibrated together.",
-              {F(
-                   "name", [](auto& s) -> auto& { return s.group.name; }, "Name of the system"),
-               F(
-                   "strips", [](auto& s) -> auto& { return s.group.strips; }, "Its strips"),
-               F("parameters", &S::parameters, parametersFields(), "Its system parameters"),
-               F("difference_std", &S::difference_std, differences,
-                 "Standard deviations of the differences from the first system"),
-               F("offset_m", &S::offset,
-                 "Error of its coordinates relative to the first system: east, north, up"),
-               F("offset_std_m", &S::offset_std, "Standard deviations of the offset")})
-        .checked([](const S& system, const FieldNode& node) {
-          constexpr double kLargestOffset = 100.0;  // metres
-          if (!(system.offset.cwiseAbs().maxCoeff() < kLargestOffset))
-            node["offset_m"].refuse("must be numbers of less than 100 m");
-        });
-return fields;
+      [](const SystemParameterInfo& info) {
+        const ParameterElement element(info.parameter);
+        return Field<SystemVector>(
+            std::string(info.name), element, "", in(info.internal_per_unit), of(info.unit),
+            onlyIf([element](const SystemVector& all) { return element(all) > 0.0; }));
+      });
+  static const Fields<S> fields =
+      Fields<S>("system", "One of several systems that were calibrated together.",
+                {F(
+                     "name", [](auto& s) -> auto& { return s.group.name; }, "Name of the system"),
+                 F(
+                     "strips", [](auto& s) -> auto& { return s.group.strips; }, "Its strips"),
+                 F("parameters", &S::parameters, parametersFields(), "Its system parameters"),
+                 F("difference_std", &S::difference_std, differences,
+                   "Standard deviations of the differences from the first system"),
+                 F("offset_m", &S::offset,
+                   "Error of its coordinates relative to the first system: east, north, up"),
+                 F("offset_std_m", &S::offset_std, "Standard deviations of the offset")})
+          .checked([](const S& system, const FieldNode& node) {
+            constexpr double kLargestOffset = 100.0;  // metres
+            if (!(system.offset.cwiseAbs().maxCoeff() < kLargestOffset))
+              node["offset_m"].refuse("must be numbers of less than 100 m");
+          });
+  return fields;
 }
 
 /// Values beyond these are refused, internal units: an error of the file.
@@ -331,19 +324,16 @@ namespace pcl_als {
 const Fields<SystemVector>& deviationFields() {
   static const auto fields = fieldsByParameter<SystemVector>(
       "parameter_std", "Standard deviations of system parameters.",
-      [](const SystemParameterInfo& info) -> Field<SystemVector> {
-    const int i = indexOf(info.parameter);
-    return {std::string(info.name), [i](auto& all) -> auto& {return all[i]; },
-                "",
-                field::in(info.internal_per_unit),
-                field::of(info.unit),
-                field::alwaysKnown,
-                field::notNegative,
-                field::onlyIf([i](const SystemVector& all) {
-    return std::isfinite(all[i]); })
-};
-});
-return fields;
+      [](const SystemParameterInfo& info) {
+        const ParameterElement element(info.parameter);
+        return Field<SystemVector>(std::string(info.name), element, "",
+                                   field::in(info.internal_per_unit), field::of(info.unit),
+                                   field::alwaysKnown, field::notNegative,
+                                   field::onlyIf([element](const SystemVector& all) {
+                                     return std::isfinite(element(all));
+                                   }));
+      });
+  return fields;
 }
 
 const FieldNames<ParameterStatus>& parameterStatusNames() {

@@ -76,13 +76,13 @@ Fields<ParameterEstimate> expectedFields(const SystemParameterInfo& info) {
 
 const Fields<CalibrationResult>& expectedParametersFields() {
   using R = CalibrationResult;
-  static const auto fields = fieldsByParameter<R>(
-      "parameters", "System parameters.", [](const SystemParameterInfo& info) -> Field<R> {
-    return {std::string(info.name), [p = info.parameter](const R& r) -> const auto& {return r[p]; },
-                expectedFields(info), ""
-};
-});
-return fields;
+  static const auto fields =
+      fieldsByParameter<R>("parameters", "System parameters.", [](const SystemParameterInfo& info) {
+        const SystemParameter p = info.parameter;
+        const auto estimate = [p](const R& r) -> const ParameterEstimate& { return r[p]; };
+        return Field<R>(std::string(info.name), estimate, expectedFields(info), "");
+      });
+  return fields;
 }
 
 const Fields<Advice>& adviceFields() {

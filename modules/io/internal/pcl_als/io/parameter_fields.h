@@ -13,6 +13,19 @@
 
 namespace pcl_als {
 
+/// Gives the element of a system parameter, of values that are indexed by SystemParameter.
+class ParameterElement {
+ public:
+  explicit ParameterElement(SystemParameter parameter) : index_(indexOf(parameter)) {}
+  template <typename Values>
+  auto& operator()(Values& values) const {
+    return values[index_];
+  }
+
+ private:
+  int index_;
+};
+
 /// A table with a field for each system parameter, which \a make returns for its
 /// SystemParameterInfo.
 template <typename S, typename Make>
