@@ -137,24 +137,17 @@ done < <(sources modules apps tests share | each '
         print FILENAME ":" FNR " " names[i] " instead of " instead[names[i]]
   }')
 
-# Headers of users are few. What only other modules include is in folders internal/, of which those are
-# installed that headers of users include in turn (share/cmake/pcl_als_internal_headers.cmake).
+# Headers for users are few, and so are the headers in folders internal/ that are installed because
+# these include them.
 users=$(find modules -path '*/include/*.h*' | wc -l)
 ((users <= 60)) || breach modules "installs $users headers for users, more than 60"
-others=$(find modules -path '*/include/*.h*' -o -path '*/internal/*.h*' | xargs -r awk '
-  match($0, /^[ \t]*#[ \t]*include[ \t]*<pcl_als\/[^>]*>/) {
-    target = substr($0, RSTART, RLENGTH); gsub(/^[^<]*<|>/, "", target)
-    name = FILENAME; sub(/^.*\/(include|internal)\/pcl_als/, "pcl_als", name)
-    includes[name] = includes[name] " " target }
-  FNR == 1 { name = FILENAME; sub(/^.*\/(include|internal)\/pcl_als/, "pcl_als", name)
-    if (FILENAME ~ /\/include\/pcl_als/) open[++last] = name; else internal[name] = 1 }
-  END { while (first < last) {
-      count = split(includes[open[++first]], targets, " ")
-      for (i = 1; i <= count; ++i)
-        if ((targets[i] in internal) && !(targets[i] in seen)) {
-          seen[targets[i]] = 1; open[++last] = targets[i]; ++installed } }
-    print installed + 0 }')
-((${others:-0} <= 100)) || breach modules "the headers for users include $others others, more than 100"
+installed=$(mktemp -d)
+cmake -DCMAKE_INSTALL_PREFIX="$installed" -DPCL_ALS_INTERNAL_INCLUDEDIR=internal \
+  -DPCL_ALS_HEADER_FOLDERS="$(printf '%s;' "$PWD"/modules/*)" \
+  -P "$here/../../share/cmake/pcl_als_internal_headers.cmake" >/dev/null
+others=$(find "$installed" -type f | wc -l)
+rm -rf -- "$installed"
+((others <= 100)) || breach modules "the headers for users include $others others, more than 100"
 
 # Every source file has a licence and at most 400 lines.
 while IFS=$'\t' read -r file text; do
