@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/common/point_flag.h>
 #include <pcl_als/simulation/radiometry.h>
 
 namespace pcl_als::simulation {
@@ -13,9 +14,6 @@ namespace {
 
 /// Share of an echo's spread in range that appears as timing noise.
 constexpr double kSpreadNoise = 0.1;
-
-// Bits of PointFlag (common/point_types.h), whose header would bring in PCL.
-constexpr std::uint8_t kScanDirectionBit = 16, kEdgeBit = 32;
 
 /// Error of the refractive index in a session.
 double refractionOf(const SimulationOptions& options, int session) {
@@ -48,14 +46,7 @@ PulseRun::PulseRun(const SimulationOptions& options, double extinction, const Fl
 
 Shot PulseRun::aim(const ScanPattern::Reading& reading) const {
   Shot shot{channels_[static_cast<std::size_t>(reading.channel)],
-            line_.firstPulseTime() + reading.time,
-            {},
-            {},
-            {},
-            {},
-            {},
-            {},
-            0.0};
+            line_.firstPulseTime() + reading.time};
   const Pose pose = line_.truePose(shot.time);
   const Eigen::Matrix3d rotation = groundFromBody(pose.roll, pose.pitch, pose.heading);
   shot.true_origin = shot.channel.true_system.firingPoint(pose.position, rotation);
@@ -94,8 +85,8 @@ SimulatedPoint PulseRun::startPoint(const ScanPattern::Reading& reading, const S
   point.scan_angle = static_cast<float>(std::atan2(to_right, -beam.z()) / kRadiansPerDegree);
   point.strip = line_.plan().id;
   point.channel = static_cast<std::uint8_t>(reading.channel);
-  point.flags = static_cast<std::uint8_t>((reading.to_right ? kScanDirectionBit : 0) |
-                                          (reading.last ? kEdgeBit : 0));
+  point.flags = static_cast<std::uint8_t>((reading.to_right ? kScanDirection : 0) |
+                                          (reading.last ? kEdgeOfFlightLine : 0));
   return point;
 }
 

@@ -37,10 +37,14 @@ struct Channel {
 struct Shot {
   const Channel& channel;
   double time;  ///< true
-  Eigen::Vector3d true_origin, true_direction;
-  Eigen::Vector3d unbiased_origin, unbiased_direction;  ///< reported, with the true parameters
-  Eigen::Vector3d assumed_origin, assumed_direction;
-  double assumed_heading;
+  Eigen::Vector3d true_origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d true_direction = Eigen::Vector3d::Zero();
+  /// Reported, with the true parameters.
+  Eigen::Vector3d unbiased_origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d unbiased_direction = Eigen::Vector3d::Zero();
+  Eigen::Vector3d assumed_origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d assumed_direction = Eigen::Vector3d::Zero();
+  double assumed_heading = 0.0;
 };
 
 /// Aims the pulses of a line, and computes points from what is measured of them.

@@ -22,7 +22,7 @@ struct DetectedReturn {
  * A peak rises by the threshold above the lowest sample before it and falls by it behind. Its time
  * is that at which the leading edge crosses a share of the rise, interpolated between samples, plus
  * the time from there to the maximum of the emitted pulse. The detector is blind for a while after
- * a return. It knows nothing of widths: a stretched echo is detected too early.
+ * a return. It does not correct for the width of an echo: a stretched echo is detected too early.
  */
 class ReturnDetector {
  public:

@@ -17,8 +17,7 @@ WaveformReceiver::WaveformReceiver(const WaveformOptions& options)
     : options_(options), pulse_(options) {}
 
 double WaveformReceiver::noise() const {
-  const double noise = options_.noise * options_.largestCount();
-  return std::sqrt(noise * noise + 1.0 / 12.0);
+  return std::sqrt(electronicNoise() * electronicNoise() + 1.0 / 12.0);
 }
 
 double WaveformReceiver::record(const std::vector<ReceivedPower>& power, Random& random,
@@ -40,7 +39,7 @@ double WaveformReceiver::record(const std::vector<ReceivedPower>& power, Random&
     for (double i = std::max(0.0, from); i <= last; ++i)
       voltage_[static_cast<std::size_t>(i)] += height * pulse_.at((i - centre) * spacing);
   }
-  const double noise = options_.noise * options_.largestCount(), largest = options_.largestCount();
+  const double noise = electronicNoise(), largest = options_.largestCount();
   for (double value : voltage_) {
     if (noise > 0.0) value += noise * random.normal();
     counts.push_back(static_cast<std::uint16_t>(std::clamp(std::round(value), 0.0, largest)));

@@ -49,6 +49,9 @@ class WaveformReceiver {
                 std::vector<std::uint16_t>& counts);
 
  private:
+  /// Standard deviation of a sample before it is rounded, counts.
+  double electronicNoise() const { return options_.noise * options_.largestCount(); }
+
   WaveformOptions options_;
   EmittedPulse pulse_;
   std::vector<double> voltage_;  ///< counts before the digitizer

@@ -47,6 +47,27 @@ Echo WaveformRun::surfacesAt(const std::vector<Backscatter>& parts, double time)
   return any ? sum : echoOf(parts[nearest]);
 }
 
+/// The points of the returns that were detected in the waveform of a pulse.
+void WaveformRun::addReturns(const ScanPattern::Reading& reading, const Shot& shot,
+                             const std::vector<Backscatter>& parts,
+                             const std::vector<DetectedReturn>& returns, double first_sample,
+                             double timing, SimulatedWaveforms& out) const {
+  SimulatedPoint point = run_.startPoint(reading, shot);
+  point.return_number = 0;
+  point.number_of_returns = static_cast<std::uint8_t>(returns.size());
+  for (const DetectedReturn& found : returns) {
+    ++point.return_number;
+    const Echo echo = surfacesAt(parts, first_sample + found.peak_time);
+    const double range = 0.5 * kLightSpeed * (first_sample + found.time);
+    run_.place(shot, echo, range - echo.range + timing, found.height / receiver_.countsPerNumber(),
+               point);
+    const double error = run_.withDetectionError(0.0, shot, echo, point.intensity);
+    out.points.push_back(point);
+    out.locations.push_back(
+        static_cast<float>(kPicoseconds * (found.time + 2.0 * error / kLightSpeed)));
+  }
+}
+
 void WaveformRun::fire(std::uint64_t pulse, SimulatedWaveforms& out) {
   const ScanPattern::Reading reading = run_.line().pattern().at(pulse);
   Shot shot = run_.aim(reading);
@@ -74,20 +95,7 @@ void WaveformRun::fire(std::uint64_t pulse, SimulatedWaveforms& out) {
   entry.true_direction = shot.true_direction;
   entry.point = out.points.size();
   entry.points = returns.size();
-  SimulatedPoint point = run_.startPoint(reading, shot);
-  point.return_number = 0;
-  point.number_of_returns = static_cast<std::uint8_t>(returns.size());
-  for (const DetectedReturn& found : returns) {
-    ++point.return_number;
-    const Echo echo = surfacesAt(parts, entry.first_sample + found.peak_time);
-    const double range = 0.5 * kLightSpeed * (entry.first_sample + found.time);
-    run_.place(shot, echo, range - echo.range + timing, found.height / receiver_.countsPerNumber(),
-               point);
-    const double error = run_.withDetectionError(0.0, shot, echo, point.intensity);
-    out.points.push_back(point);
-    out.locations.push_back(
-        static_cast<float>(kPicoseconds * (found.time + 2.0 * error / kLightSpeed)));
-  }
+  addReturns(reading, shot, parts, returns, entry.first_sample, timing, out);
   if (truth_) {
     entry.part = out.backscatter.size();
     entry.parts = parts.size();

@@ -27,6 +27,10 @@ class WaveformRun {
  private:
   void receive(const std::vector<Backscatter>& parts, double energy);
   Echo surfacesAt(const std::vector<Backscatter>& parts, double time) const;
+  /// \param first_sample nanoseconds after the emission; \param timing error of ranges, metres
+  void addReturns(const ScanPattern::Reading& reading, const Shot& shot,
+                  const std::vector<Backscatter>& parts, const std::vector<DetectedReturn>& returns,
+                  double first_sample, double timing, SimulatedWaveforms& out) const;
 
   PulseRun run_;
   FootprintTracer tracer_;

@@ -9,7 +9,7 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kRemembered = std::size_t{1} << 20;
+constexpr unsigned kHashBits = 20;
 
 }  // namespace
 
@@ -107,11 +107,11 @@ std::vector<unsigned> numbersByTime(const std::vector<double>& times) {
   return numbers;
 }
 
-PacketMemory::PacketMemory() : last_(kRemembered, ~std::uint64_t{0}) {}
+PacketMemory::PacketMemory() : last_(std::size_t{1} << kHashBits, ~std::uint64_t{0}) {}
 
 bool PacketMemory::meets(std::uint64_t offset) {
   constexpr std::uint64_t kOddFactor = 0x9E3779B97F4A7C15;  // multiplicative hashing
-  std::uint64_t& place = last_[(offset * kOddFactor) >> 44U];
+  std::uint64_t& place = last_[(offset * kOddFactor) >> (64 - kHashBits)];
   const bool met = place == offset;
   place = offset;
   return met;
