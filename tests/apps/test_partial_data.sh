@@ -55,7 +55,7 @@ left_out() {  # FILE STRIP REASON: the result counts points of that strip
 }
 expect 0 "line4" info id0_*.las -split -without line2 -output info.json
 left_out info.json line2 excluded
-check "line2 is no strip of the census" sh -c '! grep -q "\"id\": \"line2\"" info.json'
+check "line2 is no strip of the inventory" sh -c '! grep -q "\"id\": \"line2\"" info.json'
 expect 0 "the strip was not chosen" info "${strips[@]}" -strips 1,3 -output info.json
 left_out info.json 2 excluded
 expect 1 "option -strips: there is no strip 'x'; there are 1, 2, 3, 4" info "${strips[@]}" -strips x

@@ -42,7 +42,7 @@ void put64(ByteVector& file, std::size_t at, std::uint64_t value) {
 TEST(LazDamage, ABillionPointsInASmallFile) {
   for (const LazSchema& schema : {kPointwise, kLayered}) {
     const ByteVector file = fileOf(schema, 250);
-    // The chunk table says so: nothing is decoded.
+    // The number follows from the chunk table, without decoding a chunk.
     EXPECT_NE(messageOf(schema, file, 1000000000).find("hold 300 of the 1000000000"),
               std::string::npos);
   }

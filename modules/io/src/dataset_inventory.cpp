@@ -26,7 +26,7 @@ using detail::SourceCounters;
 constexpr std::size_t kMostBlocks = std::size_t{1} << 17U;
 constexpr unsigned kMostDoublings = 40;  // then everything is in one block
 constexpr double kPointsPerCell = 20.0;
-// The census describes what other jobs refuse.
+// The inventory describes what other jobs refuse.
 constexpr auto kAnyCoordinates = PointReader::OtherCoordinates::as_stored;
 
 class Inventory {

@@ -32,7 +32,7 @@ class TimeBins {
   CachedPlace<std::pair<double, double>> last_;
 };
 
-/// Everything that the census keeps of the points of one id in one file.
+/// Everything that the inventory keeps of the points of one id in one file.
 class SourceCounters {
  public:
   /// Takes in rows [first, last) of a chunk; cells of \a cell metres.

@@ -157,9 +157,9 @@ void checkCoverage(Job& job, const CoverageCount& coverage) {
 }
 
 /// Adds up what blocks report, from any thread.
-class Tally {
+class CoverageCounters {
  public:
-  Tally(std::uint64_t expected, Job& job) : expected_(expected), job_(job) {}
+  CoverageCounters(std::uint64_t expected, Job& job) : expected_(expected), job_(job) {}
 
   void add(const CoverageCount& part) {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -192,7 +192,7 @@ bool rewrite(Job& job, const LasFile& file) {
   if (job.options.uncertainty)
     uncertainty = std::make_unique<detail::FileUncertainty>(file, correction, layout,
                                                             job.calibration, job.options);
-  Tally counters(file.header().point_count, job);
+  CoverageCounters counters(file.header().point_count, job);
   LasExtension extension = uncertainty ? uncertainty->extension() : LasExtension();
   extension.corrections = job.corrections;
   extension.abandon = [&counters] { return counters.lacksAttitude(); };

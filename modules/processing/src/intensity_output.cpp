@@ -53,8 +53,8 @@ struct BlockOutcome {
   IntensityStatistics statistics;
 };
 
-void counters(const IntensityRun& run, const EvaluatedWindow& found, std::size_t i,
-              const CorrectedPoint& point, double stored, BlockOutcome& out) {
+void countPoint(const IntensityRun& run, const EvaluatedWindow& found, std::size_t i,
+                const CorrectedPoint& point, double stored, BlockOutcome& out) {
   const IntensityPoint& given = found.window.points[i];
   ++out.counts.points;
   ++out.counts.labels[given.label];
@@ -309,7 +309,7 @@ void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::
           found.radiometry[i].corrected() ? rounded(scaled) : LasRecordLayout::intensityOf(record);
       places.store(record, point);
       LasRecordLayout::storeIntensity(stored[i], record);
-      counters(run, found, i, point, scaled, part);
+      countPoint(run, found, i, point, scaled, part);
     }
     if (run.settings().statistics) ordered.addHistogram(found, run, stored);
     const std::uint64_t done = ordered.add(window, std::move(part));
@@ -344,7 +344,7 @@ void writePcd(const IntensityRun& run, std::size_t file, const std::filesystem::
     for (PcdColumn& column : columns)
       column.values[i] = column.name == kOriginal ? (*strip.cloud)[i].intensity
                                                   : static_cast<float>(valueOf(column.name, point));
-    counters(run, found, i, point, std::clamp(scaled, 0.5, kLargestIntensity), part);
+    countPoint(run, found, i, point, std::clamp(scaled, 0.5, kLargestIntensity), part);
   }
   OrderedOutcome ordered(outcome, outcome.counts[file]);
   if (run.settings().statistics && !stored.empty()) ordered.addHistogram(found, run, stored);

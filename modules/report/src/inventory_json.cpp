@@ -126,7 +126,7 @@ const Fields<FileInventory>& inventoryFileFields() {
        {"time_shift_s", &I::time_shift, "Added to the times that are stored"},
        {"corrections", correctionsOf, "Corrections that were applied to the points"},
        {"resolution", &I::resolution, "Steps of coordinates in the file", of("m")}});
-  // The header and VLRs; the census has found what of the rest cannot be read.
+  // The header and VLRs; the inventory has found what of the rest cannot be read.
   const auto las = [](const F& f) {
     return LasFile(f.info.path, kLazAllFields, LasDamage::keep_intact);
   };

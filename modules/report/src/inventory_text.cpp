@@ -113,7 +113,7 @@ std::string classesText(const PointStatistics& s) {
 
 /// Contents of LAS files only: software, extra bytes, variable length records.
 std::string lasText(const std::filesystem::path& path) {
-  // The header and VLRs; the census has found what of the rest cannot be read.
+  // The header and VLRs; the inventory has found what of the rest cannot be read.
   const LasFile file(path, kLazAllFields, LasDamage::keep_intact);
   const LasHeader& h = file.header();
   std::string text =

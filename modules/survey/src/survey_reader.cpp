@@ -191,7 +191,7 @@ void SurveyReader::alignTimes(const Flight& flight, std::vector<std::string>& re
       times_[file] = reconcileTimes(info, range, flown, flight.gps_week);
       ++met;
     } catch (const InputError& error) {
-      // Its points are then excluded, with the others of their strips in mind: see the tally.
+      // StripAssignment then excludes the points of this file, as outside of the trajectory.
       if (objection.empty()) objection = error.what();
     }
     const std::string& remark = times_[file].remark;

@@ -15,7 +15,7 @@ namespace pcl_als {
 
 class FieldTable;
 
-/// The census as text; \a left_out: points that belong to none of its strips.
+/// The inventory as text. \param excluded points that belong to none of its strips
 std::string inventoryText(const DatasetInventory& survey,
                           const std::vector<ExcludedPoints>& excluded);
 
@@ -27,7 +27,7 @@ struct ListedTrajectory {
   FlightAssessment assessment;               ///< of points and trajectory together; may be empty
 };
 
-/// The census as JSON, and its description.
+/// The inventory as JSON, and the table of its fields.
 const FieldTable& inventoryFields();
 std::string inventoryJson(const DatasetInventory& survey,
                           const std::vector<ExcludedPoints>& excluded,
