@@ -22,7 +22,6 @@
 #include <pcl_als/registration/iterative_closest_patch.h>
 #include <pcl_als/registration/rigid_motion.h>
 #include <pcl_als/simulation/simulator.h>
-#include <pcl_als/survey/survey_map.h>
 
 #include "alignment_methods.h"
 

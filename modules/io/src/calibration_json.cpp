@@ -7,6 +7,7 @@
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/io/applied_correction.h>
 #include <pcl_als/io/json_text.h>
+#include <pcl_als/io/parameter_fields.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/io/survey_io.h>
 
@@ -84,8 +85,7 @@ const FieldTable& calibrationFields() {
       "Result of `pcl_als_calibrate`. Biases and errors are the assumed minus the true value.",
       {F::constant("format", detail::kCalibrationFormat, ""),
        F::constant("version", detail::kCalibrationVersion, "Files of version 1 are read as well"),
-       F(
-           "tool_version", [](const Result&) { return PCL_ALS_VERSION; }, "Version of pcl_als"),
+       toolVersionField<Result>(),
        F(
            "id", [](const Result& result) { return calibrationId(result); },
            "Identifies what the calibration changes in points, as corrected files record it"),
@@ -136,6 +136,10 @@ CalibrationResult parseCalibration(const std::string& text, const std::string& n
 
 CalibrationResult readCalibration(const std::filesystem::path& path) {
   return parseCalibration(readWholeFile(path, kJsonLimits), path.string());
+}
+
+std::string_view toolVersion() {
+  return PCL_ALS_VERSION;
 }
 
 }  // namespace pcl_als

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <pcl_als/common/fields.h>
 #include <pcl_als/io/json_text.h>
+#include <pcl_als/io/parameter_fields.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/report/accuracy_report.h>
 
@@ -107,7 +108,7 @@ const FieldTable& accuracyFields() {
        {"warnings", remarksOf, "What a user should know"},
        {"left_out", &R::excluded, excludedFields(), "Points that took no part", unlessEmpty},
        {"inputs", &R::inputs, "Files that were compared"},
-       {"tool_version", [](const R&) { return PCL_ALS_VERSION; }, "Version of pcl_als"}});
+       toolVersionField<R>()});
   return fields;
 }
 

@@ -5,6 +5,7 @@
 #include <pcl_als/common/fields.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/json_text.h>
+#include <pcl_als/io/parameter_fields.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/quality/strip_alignment.h>
 #include <pcl_als/report/alignment_report.h>
@@ -230,8 +231,7 @@ const FieldTable& icpatchFields() {
         "Points that took no part"},
        F::all(
            [](const AlignmentReport& r) -> const auto& { return *r.result; }, movementFields()),
-       {"tool_version", [](const AlignmentReport&) { return PCL_ALS_VERSION; },
-        "Version of pcl_als"}});
+       toolVersionField<AlignmentReport>()});
   return fields;
 }
 

@@ -271,7 +271,7 @@ const FieldTable& historyFields() {
       "history", "Result of `pcl_als_history`.",
       {F::constant("format", "pcl_als history", ""),
        F::constant("version", 1, ""),
-       {"tool_version", [](const R&) { return PCL_ALS_VERSION; }, "Version of pcl_als"},
+       toolVersionField<R>(),
        {"instrument", &R::instrument, calibrationInstrumentFields(),
         "The value from now on, as in calibration.json"},
        {"change_std", changesOf, deviationFields(), "Of changes between missions"},

@@ -4,6 +4,7 @@
 #include <pcl_als/common/fields.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/io/json_text.h>
+#include <pcl_als/io/parameter_fields.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/report/intensity_report.h>
 
@@ -225,9 +226,6 @@ const Fields<FileOf>& intensityFileFields() {
   return fields;
 }
 
-std::string toolVersion(const Report&) {
-  return PCL_ALS_VERSION;
-}
 const RadiometricModel& modelOf(const Report& report) {
   return report.result->run->model();
 }
@@ -255,7 +253,7 @@ const FieldTable& intensityFields() {
       "intensity", "Result of `pcl_als_intensity`.",
       {F::constant("format", kFormat, ""),
        F::constant("version", 1, ""),
-       {"tool_version", toolVersion, "Version of pcl_als"},
+       toolVersionField<Report>(),
        {"model", modelOf, radiometricModelFields(), "Model of the correction"},
        {"atmosphere", &Report::extinction, atmosphereFields(), "Source of the extinction"},
        F::all(kSameObject, radiometricEstimateFields()),

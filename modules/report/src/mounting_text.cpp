@@ -264,7 +264,7 @@ const FieldTable& mountingReportFields() {
        {"parameters", kSameObject, biasesFields(), "Of the calibration"},
        {"remarks", &R::remarks, "What a user should know"},
        {"inputs", [](const R& r) { return std::vector{r.calibration}; }, "The calibration"},
-       {"tool_version", [](const R&) { return PCL_ALS_VERSION; }, "Version of pcl_als"}});
+       toolVersionField<R>()});
   return fields;
 }
 

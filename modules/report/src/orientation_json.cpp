@@ -6,6 +6,7 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/image_block_io.h>
 #include <pcl_als/io/json_text.h>
+#include <pcl_als/io/parameter_fields.h>
 #include <pcl_als/report/orientation_report.h>
 
 namespace pcl_als {
@@ -246,7 +247,7 @@ const FieldTable& orientationFields() {
        {"check_points", kSameObject, checkFields(), "Check points"},
        {"residuals", residualsOf, residualFields(), "Residuals"},
        {"warnings", [](const R& r) { return r.bundle.warnings; }, "What a user should know"},
-       {"tool_version", [](const R&) { return PCL_ALS_VERSION; }, "Version of pcl_als"}});
+       toolVersionField<R>()});
   return fields;
 }
 

@@ -190,7 +190,7 @@ const FieldTable& planFields() {
        F::all(
            [](const R& r) -> const auto& { return *r.result; }, planResultFields()),
        {"inputs", [](const R& r) { return *r.inputs; }, "Files of the plan"},
-       {"tool_version", [](const R&) { return PCL_ALS_VERSION; }, "Version of pcl_als"}});
+       toolVersionField<R>()});
   return fields;
 }
 

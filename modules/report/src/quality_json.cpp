@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/json_text.h>
+#include <pcl_als/io/parameter_fields.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/processing/delivery_requirement.h>
 #include <pcl_als/report/quality_report.h>
@@ -325,7 +326,7 @@ const FieldTable& qualityFields() {
       "quality", "Result of `pcl_als_check`. Unknown values are null.",
       {F::constant("format", "pcl_als quality", ""),
        F::constant("version", 1, ""),
-       {"tool_version", [](const R&) { return PCL_ALS_VERSION; }, "Version of pcl_als"},
+       toolVersionField<R>(),
        F::constant("signs", "offsets are a - b, shifts move a onto b, control is strip - control",
                    "Signs of all values"),
        {"limits", kSameObject, limitFields(), "The limits that apply"},

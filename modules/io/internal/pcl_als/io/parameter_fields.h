@@ -51,4 +51,14 @@ Field<S> unitField(std::string_view unit) {
       }));
 }
 
+/// The version of pcl_als.
+std::string_view toolVersion();
+
+/// The version of pcl_als that wrote a result file.
+template <typename S>
+Field<S> toolVersionField() {
+  return Field<S>(
+      "tool_version", [](const S& /*object*/) { return toolVersion(); }, "Version of pcl_als");
+}
+
 }  // namespace pcl_als
