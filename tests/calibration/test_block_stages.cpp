@@ -185,6 +185,30 @@ TEST(SurveyBlock, LeavesOutStripsWithFewPoints) {
   EXPECT_EQ(block.flownTimes()[1], TimeSpan(0.0, 0.0));
 }
 
+// The file of a strip once more, under another id: a standard deviation must not fall by that.
+TEST(SurveyBlock, ExcludesACopyOfAStrip) {
+  HandMadeBlock given = planes({0.0, 0.1});
+  given.strips.push_back(given.strips[0]);
+  const SurveyBlock block = chosen(given);
+  EXPECT_EQ(block.strips.used, (std::vector<bool>{true, true, false}));
+  ASSERT_EQ(block.excluded.size(), 1U);
+  EXPECT_EQ(block.excluded[0].reason, ExclusionReason::copy);
+  ASSERT_EQ(block.warnings.size(), 1U);
+  EXPECT_EQ(block.warnings[0].text,
+            "strip 3 holds the same points as strip 1 and is excluded: one is a copy of the other");
+  // Points beside these, at the same times, are those of another scanner.
+  for (LidarReturn& point : given.strips[2]) point.position.x() += 20.0;
+  EXPECT_TRUE(chosen(given).excluded.empty());
+}
+
+// Two scanners whose strips have ids of their own; the third strip is another pass.
+TEST(SurveyBlock, StripsOfOneTimeAreOnePass) {
+  HandMadeBlock given = planes({0.0, 0.1});
+  given.strips.push_back(given.strips[0]);
+  for (LidarReturn& point : given.strips[2]) point.position.x() += 20.0;
+  EXPECT_EQ(chosen(given).systems.pass, (std::vector<int>{0, 1, 0}));
+}
+
 TEST(SurveyBlock, RefusesWhatCannotBeCompared) {
   const HandMadeBlock given = planes({0.0, 0.1});
   BlockRequest request = requestOf();

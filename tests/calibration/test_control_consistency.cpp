@@ -35,7 +35,8 @@ CalibrationResult resultWith(const std::vector<ControlPointFit>& fits) {
   result.control_points = fits;
   const ControlConsistency control(fits);
   SystemVector spread = SystemVector::Zero();
-  spread[indexOf(SystemParameter::range_bias)] = 0.5 * control.separation;
+  spread[indexOf(SystemParameter::range_bias)] =
+      control.groups ? 0.5 * control.groups->separation : 0.0;
   spread[indexOf(SystemParameter::boresight_roll)] = 1e-7;
   judgeControl(control, spread, result);
   return result;
@@ -63,8 +64,9 @@ TEST(ControlConsistency, HalfOfThePointsTooHighIsSaidAndAllowedFor) {
   EXPECT_NE(result.warnings[0].text.find("higher above 6 of them"), std::string::npos)
       << result.warnings[0].text;
   const ControlConsistency control(fits);
-  EXPECT_NEAR(control.separation, 0.2, 0.02);
-  for (const std::string& id : control.lower) EXPECT_LT(std::stoi(id), 6);
+  ASSERT_TRUE(control.groups);
+  EXPECT_NEAR(control.groups->separation, 0.2, 0.02);
+  for (const std::string& id : control.groups->lower) EXPECT_LT(std::stoi(id), 6);
   EXPECT_NEAR(result[SystemParameter::range_bias].std, 0.1, 0.02);
   EXPECT_NE(result.warnings[0].text.find("standard deviations of range_bias allow"),
             std::string::npos)

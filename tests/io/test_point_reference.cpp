@@ -50,6 +50,21 @@ TEST(PointReference, SaysOnceWhatIsConvertedOrAssumed) {
             std::string::npos);
 }
 
+TEST(PointReference, NamesFilesWithTheSamePoints) {
+  std::vector<PointFileInfo> files{fileIn("a.las", "EPSG:25832"), fileIn("b.las", "EPSG:25832"),
+                                   fileIn("c.las", "EPSG:25832")};
+  for (PointFileInfo& file : files) {
+    file.point_count = 12345;
+    file.maximum = {100.0, 200.0, 30.0};
+  }
+  files[1].maximum.z() = 30.001;
+  const PointReference common = commonReference(files);
+  ASSERT_EQ(common.remarks.size(), 1U);
+  EXPECT_EQ(common.remarks[0],
+            "block/c.las and block/a.las hold the same points by their headers (12 345 in the same "
+            "box): give one of them, so that none counts twice");
+}
+
 TEST(PointReference, OneZoneInFeetAndInMetresBelongsTogether) {
   const PointReference common =
       commonReference({fileIn("a.las", "EPSG:2271"), fileIn("b.las", "EPSG:32128")});

@@ -125,6 +125,39 @@ TEST(ControlCheck, AnOffsetOfOneStripIsNamedAndTheRestHasNoClass) {
   EXPECT_FALSE(result.quality_level);
 }
 
+// Six of twelve points are 30 cm higher than the others: the strip lies on the one group and 30 cm
+// below the other. A strip whose offset differs does not make control contradict itself.
+TEST(ControlCheck, PointsThatContradictEachOtherAreNamedAndHaveNoCommonOffset) {
+  std::vector<ControlDifference> differences;
+  std::vector<std::string> ids;
+  for (int i = 0; i < 12; ++i) {
+    ids.push_back(std::string("P") + static_cast<char>('A' + i));
+    const double noise = 0.004 * (i % 3 - 1), wrong = i % 2 == 0 ? 0.3 : 0.0;
+    differences.push_back(difference(ids.back(), "1", -0.2 - wrong + noise));
+    if (i < 5) differences.push_back(difference(ids.back(), "2", -0.2 - wrong + noise));
+  }
+  const auto result = assessControl(differences, points(ids, 0.01), kStrips, 0.02);
+  ASSERT_TRUE(result.contradiction);
+  EXPECT_EQ(result.contradiction->strip, "1");
+  EXPECT_NEAR(result.contradiction->separation, 0.3, 0.005);
+  EXPECT_EQ(result.contradiction->lower.size(), 6U);
+  EXPECT_TRUE(result.offsets.empty()) << "there is no offset that the points have in common";
+  const Warnings warnings = warningsOf(result);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].text.rfind("the control points contradict each other: strip 1 lies 0.3", 0),
+            0U)
+      << warnings[0].text;
+
+  std::vector<ControlDifference> offset;
+  for (int i = 0; i < 12; ++i)
+    offset.push_back(difference(ids[static_cast<std::size_t>(i)], i < 6 ? "1" : "2",
+                                (i < 6 ? 0.0 : -0.3) + 0.004 * (i % 3 - 1)));
+  const auto of_strips = assessControl(offset, points(ids, 0.01), kStrips, 0.02);
+  EXPECT_FALSE(of_strips.contradiction);
+  ASSERT_EQ(of_strips.offsets.size(), 1U);
+  EXPECT_EQ(of_strips.offsets[0].strip, "2");
+}
+
 TEST(ControlCheck, ABlunderIsCountedShownAndNotUsed) {
   const auto ids = numbered(20);
   std::vector<ControlDifference> all;

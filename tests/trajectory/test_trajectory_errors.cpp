@@ -53,6 +53,18 @@ TEST(TrajectoryErrors, BetweenCloseStripsTheNearerCounts) {
   EXPECT_NEAR(found.position.z(), 0.3, 1e-12);
 }
 
+TEST(TrajectoryErrors, OfStripsOfOnePassCountOnce) {
+  auto strips = twoStrips();
+  strips.push_back(strips[0]);
+  strips.back().id = "other scanner";
+  const TrajectoryErrors once(twoStrips()), both(strips);
+  TrajectoryErrorKnot expected, found;
+  for (const double time : {-1.0, 3.0, 25.0}) {
+    ASSERT_EQ(both.at(time, found), once.at(time, expected));
+    EXPECT_EQ(found.position, expected.position);
+  }
+}
+
 TEST(TrajectoryErrors, RefusesWhatIsNoFunctionOfTime) {
   auto strips = twoStrips();
   strips[0].knots[0].time = 9.0;

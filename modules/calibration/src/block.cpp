@@ -56,11 +56,13 @@ std::string checkControl(const BlockStrips& strips, const SurveyMap& map,
 /// The strips with their systems, which are compared by session and channel where none are given.
 void assignSystems(SurveyBlock& block) {
   const CalibrationSettings& settings = block.settings();
+  const std::vector<std::string>& ids = block.strips.ids;
+  const std::vector<TimeSpan> flown = block.flownTimes();
+  const std::vector<int> passes = passesOf(ids, flown);
   if (settings.systems.empty() && settings.diagnose)
-    block.compared = comparedGroups(block.strips.ids, block.flownTimes());
-  block.systems = block.compared.empty()
-                      ? stripSystems(settings.systems, settings.own, block.strips.ids)
-                      : stripSystems(block.compared, {{}, false}, block.strips.ids);
+    block.compared = comparedGroups(ids, flown, passes);
+  block.systems = block.compared.empty() ? stripSystems(settings.systems, settings.own, ids, passes)
+                                         : stripSystems(block.compared, {{}, false}, ids, passes);
   holdSurfaces(settings, block.strips, block.systems);
 }
 

@@ -153,7 +153,8 @@ struct SurveyBlock {
   BlockStrips strips;
   std::vector<SurveyedStrip> surveyed;  ///< by strip
   StripSystems systems;
-  std::vector<StripGroup> compared;  ///< sessions and channels, where no systems are given
+  /// Sessions, channels and scanners, where no systems are given.
+  std::vector<StripGroup> compared;
   BlockTrajectory flight;
   BlockScanner scanner;
   std::vector<StripPair> pairs;

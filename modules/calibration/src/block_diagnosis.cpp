@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <pcl_als/common/listed_names.h>
 
@@ -24,11 +25,10 @@ namespace pcl_als {
 std::vector<JumpSearch::Strip> correctedPasses(const SurveyBlock& block) {
   const std::vector<bool> corrected = block.strips.corrected();
   std::vector<JumpSearch::Strip> passes;
-  for (std::size_t i = 0; i < corrected.size(); ++i) {
-    const int strip = static_cast<int>(i);
-    if (corrected[i] && block.systems.pass[i] == strip)
-      passes.push_back({strip, block.strips.ids[i]});
-  }
+  std::set<int> known;
+  for (std::size_t i = 0; i < corrected.size(); ++i)
+    if (corrected[i] && known.insert(block.systems.pass[i]).second)
+      passes.push_back({static_cast<int>(i), block.strips.ids[i]});
   return passes;
 }
 
@@ -123,7 +123,7 @@ void assessControl(const SurveyBlock& block, const BlockEstimate& estimate,
                    CalibrationResult& result) {
   const ControlConsistency control(result.control_points);
   SystemVector spread = SystemVector::Zero();
-  if (control.two_groups) {
+  if (control.groups) {
     BlockSolution solution = estimate.solution;
     weigh(estimate.pairs, true, block.settings().threads, solution);  // of pairs added for the fits
     ControlledAdjustment adjustment{solution.adjustment.errors(),

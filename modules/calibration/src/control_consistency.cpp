@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <pcl_als/common/listed_names.h>
 #include <pcl_als/common/statistics.h>
@@ -15,10 +16,7 @@ namespace {
 constexpr std::size_t kMinimumPointsForScatter = 6;  // points for an estimate of the scatter
 // Expected standard deviations; six points exceed 2.43 once in a thousand normal samples.
 constexpr double kScatter = 2.5;
-constexpr double kSeparate = 4.5;          // standard deviations of the groups
-constexpr double kSeparateExpected = 5.0;  // expected standard deviations
-constexpr double kSmallestGroup = 0.2;     // share of the points
-constexpr double kMostRejected = 0.5;      // share of the points: the others are outliers
+constexpr double kMostRejected = 0.5;  // share of the points: the others are outliers
 
 std::string inMetres(double value, const char* format = "%+.3f m") {
   char text[32];
@@ -26,45 +24,19 @@ std::string inMetres(double value, const char* format = "%+.3f m") {
   return text;
 }
 
-struct Split {
-  std::size_t lower = 0;  ///< points of the lower group
-  double separation = 0.0, within = 0.0;
-};
-
-/// The split of sorted values with the largest separation of two means.
-Split bestSplit(const std::vector<double>& values) {
-  const std::size_t n = values.size();
-  const auto smallest = std::max<std::size_t>(
-      2, static_cast<std::size_t>(std::ceil(kSmallestGroup * static_cast<double>(n))));
-  Split best;
-  double ratio = 0.0;
-  for (std::size_t k = smallest; k + smallest <= n; ++k) {
-    RunningStatistics low, high;
-    for (std::size_t i = 0; i < n; ++i) (i < k ? low : high).add(values[i]);
-    const auto freedom = static_cast<double>(n) - 2.0;
-    const double squares = static_cast<double>(k - 1) * std::pow(low.standardDeviation(), 2) +
-                           static_cast<double>(n - k - 1) * std::pow(high.standardDeviation(), 2);
-    const double separation = high.mean() - low.mean(), within = std::sqrt(squares / freedom);
-    if (separation <= ratio * within) continue;
-    ratio = within > 0.0 ? separation / within : 1e9;
-    best = {k, separation, within};
-  }
-  return best;
-}
-
 }  // namespace
 
 ControlConsistency::ControlConsistency(const std::vector<ControlPointFit>& points) {
   std::vector<double> standardised, expected, plan;
   RunningStatistics residuals, in_plan;
-  std::vector<const ControlPointFit*> order;  // all but positions of targets in plan
+  std::vector<std::pair<std::string, double>> heights;  // all but positions of targets in plan
   for (const ControlPointFit& point : points) {
     if (point.isInPlan()) {
       plan.push_back(point.after / point.expected_std);
       if (point.used) in_plan.add(point.after);
       continue;
     }
-    order.push_back(&point);
+    heights.emplace_back(point.id, point.after);
     expected.push_back(point.expected_std);
     if (point.expected_std > 0.0) standardised.push_back(point.after / point.expected_std);
     if (point.used) residuals.add(point.after);
@@ -73,25 +45,13 @@ ControlConsistency::ControlConsistency(const std::vector<ControlPointFit>& point
   if (standardised.size() >= kMinimumPointsForScatter) scatter = robustSigma(standardised);
   plan_rms = in_plan.rms();
   if (plan.size() >= kMinimumPointsForScatter) plan_scatter = robustSigma(plan);
-  if (order.size() < kMinimumPointsForScatter) return;
-  std::sort(order.begin(), order.end(),
-            [](const ControlPointFit* a, const ControlPointFit* b) { return a->after < b->after; });
-  std::vector<double> values;
-  for (const ControlPointFit* point : order) values.push_back(point->after);
-  const Split split = bestSplit(values);
-  two_groups = split.separation > kSeparate * split.within &&
-               split.separation > kSeparateExpected * medianInPlace(expected);
-  if (!two_groups) return;
-  separation = split.separation;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    (i < split.lower ? lower : higher).push_back(order[i]->id);
-  }
+  groups = controlGroups(std::move(heights), medianInPlace(expected));
 }
 
 SystemVector controlSpread(const ControlConsistency& control,
                            const ControlledAdjustment& adjustment) {
   SystemVector spread = SystemVector::Zero();
-  if (!control.two_groups) return spread;
+  if (!control.groups) return spread;
   const auto solution = [&](const std::vector<std::string>& group, double shift) {
     std::vector<AreaObservations> moved = adjustment.observations;
     for (std::size_t i = 0; i < adjustment.control.size(); ++i) {
@@ -107,8 +67,8 @@ SystemVector controlSpread(const ControlConsistency& control,
   };
   const SystemVector as_given = solution({}, 0.0);
   // The misclosure of control is control minus strip.
-  const SystemVector lower_right = solution(control.higher, control.separation);
-  const SystemVector higher_right = solution(control.lower, -control.separation);
+  const SystemVector lower_right = solution(control.groups->higher, control.groups->separation);
+  const SystemVector higher_right = solution(control.groups->lower, -control.groups->separation);
   return (lower_right - as_given).cwiseAbs().cwiseMax((higher_right - as_given).cwiseAbs());
 }
 
@@ -195,13 +155,9 @@ void judgeControl(const ControlConsistency& control, const SystemVector& spread,
         "check the coordinates and the diameters of the targets and the datum of the trajectory, "
         "and state a realistic sigma_plan"));
   }
-  if (control.two_groups) {
-    const std::string what = "the control points contradict each other: the strips lie " +
-                             inMetres(control.separation, "%.3f m") + " higher above " +
-                             std::to_string(control.higher.size()) + " of them (" +
-                             listedNames(control.higher) + ") than above the other " +
-                             std::to_string(control.lower.size()) + " (" +
-                             listedNames(control.lower) + ")";
+  if (control.groups) {
+    const std::string what =
+        "the control points contradict each other: the strips lie " + control.groups->describe();
     const std::string affected = enlarge(spread, result);
     const std::string effect =
         affected.empty() ? "; no parameter depends on it"

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/control_groups.h>
 
 #include "adjustment.h"
 
@@ -16,21 +18,13 @@ namespace pcl_als {
  *
  * Scatter: the median absolute deviation of the residuals over their expected standard deviations;
  * 1 where control is as accurate as stated.
- *
- * Two groups: the split of the residuals with the largest separation of two means. A normal
- * distribution split at its median has means 2.7 standard deviations of the groups apart, a uniform
- * one 3.5; two groups are reported from 4.5 on, where the smaller group contains a fifth of the
- * points and the distance is five expected standard deviations. The data do not show which of the
- * groups is correct.
  */
 struct ControlConsistency {
   double scatter = 1.0;
   double rms = 0.0;  ///< metres, of the residuals of the points that were used
   /// The same of the east and north coordinates of targets, which take no part in the groups.
   double plan_scatter = 1.0, plan_rms = 0.0;
-  bool two_groups = false;                 ///< the other members below are set
-  double separation = 0.0;                 ///< metres, between the groups' means
-  std::vector<std::string> higher, lower;  ///< ids, by the height of the strips above the points
+  std::optional<ControlGroups> groups;  ///< of points that contradict each other
 
   explicit ControlConsistency(const std::vector<ControlPointFit>& points);
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -38,6 +39,30 @@ std::vector<int> sessionsOf(const std::vector<TimeSpan>& times) {
   return sessions;
 }
 
+/// By strip, "channel1" by its id, or "scanner2" by its place among the strips of its pass; empty:
+/// the strip is not told apart.
+std::vector<std::string> scannersOf(const std::vector<std::string>& ids,
+                                    const std::vector<int>& sessions,
+                                    const std::vector<int>& passes) {
+  constexpr std::size_t kMostScanners = 4;
+  std::vector<std::string> names;
+  for (const std::string& id : ids) {
+    const std::string channel = id.substr(passOfStrip(id).size());  // ".ch1"
+    names.push_back(channel.empty() ? "" : "channel" + channel.substr(3));
+  }
+  std::map<int, std::vector<std::size_t>> strips_of;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    if (sessions[i] > 0) strips_of[passes[i]].push_back(i);
+  const bool divided = !std::all_of(names.begin(), names.end(), std::mem_fn(&std::string::empty));
+  const std::size_t count = strips_of.empty() ? 0 : strips_of.begin()->second.size();
+  const bool alike = std::all_of(strips_of.begin(), strips_of.end(),
+                                 [&](const auto& pass) { return pass.second.size() == count; });
+  if (divided || !alike || count < 2 || count > kMostScanners) return names;
+  for (const auto& [pass, strips] : strips_of)
+    for (std::size_t k = 0; k < count; ++k) names[strips[k]] = "scanner" + std::to_string(k + 1);
+  return names;
+}
+
 std::string remedyOf(const DifferenceUnknown& unknown, const std::string& group) {
   const auto is = [&](const char* word) { return group.find(word) != std::string::npos; };
   if (unknown.index >= kSystemParameterCount)
@@ -49,16 +74,19 @@ std::string remedyOf(const DifferenceUnknown& unknown, const std::string& group)
   if (is("scanned"))
     return "check how the scan angles of both directions were derived (lag of the mirror, time "
            "tags of the encoder)";
-  return is("channel") ? "calibrate the channels as systems of their own"
-                       : "calibrate the points of each value as systems of their own";
+  return is("channel")   ? "calibrate the channels as systems of their own"
+         : is("scanner") ? "calibrate the strips of each scanner as a system of its own"
+                         : "calibrate the points of each value as systems of their own";
 }
 
 /// "user data 1" of user_data1.
 std::string readable(std::string name) {
   const std::size_t digit = name.find_first_of("0123456789");
   if (digit != std::string::npos) name.insert(digit, " ");
-  const std::size_t next = name.find("_channel");
-  if (next != std::string::npos) name.insert(next + std::string("_channel").size(), " ");
+  for (const std::string scanner : {"_channel", "_scanner"}) {
+    const std::size_t next = name.find(scanner);
+    if (next != std::string::npos) name.insert(next + scanner.size(), " ");
+  }
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
@@ -121,19 +149,19 @@ ErrorFinding differenceFinding(const DifferenceUnknown& unknown, const SpikeAndS
 }
 
 std::vector<StripGroup> comparedGroups(const std::vector<std::string>& ids,
-                                       const std::vector<TimeSpan>& times) {
+                                       const std::vector<TimeSpan>& times,
+                                       const std::vector<int>& passes) {
   const std::vector<int> sessions = sessionsOf(times);
+  const std::vector<std::string> scanners = scannersOf(ids, sessions, passes);
   std::map<std::pair<int, std::string>, std::vector<std::string>> parts;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const std::string channel = ids[i].substr(passOfStrip(ids[i]).size());  // ".ch1"
-    if (sessions[i] > 0) parts[{sessions[i], channel}].push_back(ids[i]);
-  }
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    if (sessions[i] > 0) parts[{sessions[i], scanners[i]}].push_back(ids[i]);
   if (parts.size() < 2) return {};
   const bool several = parts.begin()->first.first != parts.rbegin()->first.first;
   std::vector<StripGroup> groups;
   for (auto& [key, strips] : parts) {
     std::string name = several ? "session" + std::to_string(key.first) : "";
-    if (!key.second.empty()) name += (name.empty() ? "channel" : "_channel") + key.second.substr(3);
+    if (!key.second.empty()) name += (name.empty() ? "" : "_") + key.second;
     groups.push_back({name, std::move(strips)});
   }
   return groups;

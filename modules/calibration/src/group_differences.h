@@ -37,14 +37,19 @@ ErrorFinding differenceFinding(const DifferenceUnknown& unknown, const SpikeAndS
                                Eigen::Index at, const ScanGeometry& edge);
 
 /** \brief Groups of strips that may differ although no systems are given: sessions (three hours or
- * more without a strip between them) and, where strips are those of channels, channels.
+ * more without a strip between them) and, where strips are those of channels, channels. Where every
+ * pass has the same number of strips with ids of their own, at most four, these are taken for
+ * scanners, in the order of the strips.
  *
- * Named "session1", "session2_channel0" …, in order; empty where there is only one group.
+ * Named "session1", "session2_channel0", "scanner2" …, in order; empty where there is only one
+ * group.
  *
  * \param times first and last time by strip; both zero: not used
+ * \param passes by strip, passesOf()
  */
 std::vector<StripGroup> comparedGroups(const std::vector<std::string>& ids,
-                                       const std::vector<TimeSpan>& times);
+                                       const std::vector<TimeSpan>& times,
+                                       const std::vector<int>& passes);
 
 /** \brief Adds to the diagnosis how probable differences of the groups after the first to the first
  * one are: of boresight, range bias and scan angle scale, and between sessions of the coordinates

@@ -51,8 +51,8 @@ struct StripSystems {
   std::vector<int> system;  ///< by strip, from 0; empty: one system
   int count = 1;            ///< of systems
   PerSystemParameters own;  ///< what systems have of their own
-  /// By strip, the first strip of the same pass: channels of one scanner have the same trajectory
-  /// errors. Empty: every strip is a pass.
+  /// By strip, the first strip of the same pass: channels of one scanner, and scanners with ids of
+  /// their own, have the same trajectory errors. Empty: every strip is a pass.
   std::vector<int> pass;
   /// A system that is held fixed: its strips (or the surface) have no biases.
   struct Held {

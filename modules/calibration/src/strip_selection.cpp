@@ -46,6 +46,20 @@ void excludeSmall(const SurveyMap& map, std::size_t fewest, StripSelection& sele
   }
 }
 
+/// Strips that hold the points of an earlier one: they would count twice.
+void excludeCopies(const SurveyMap& map, StripSelection& selection) {
+  const BlockStrips& strips = selection.strips;
+  const auto id = [&](int strip) { return strips.ids[static_cast<std::size_t>(strip)]; };
+  for (int strip = 1; strip < static_cast<int>(strips.size()); ++strip) {
+    for (int earlier = 0; earlier < strip && strips.isFlown(strip); ++earlier) {
+      if (!strips.isFlown(earlier) || !map.areCopies(earlier, strip)) continue;
+      selection.warnings.push_back("strip " + id(strip) + " holds the same points as strip " +
+                                   id(earlier) + " and is excluded: one is a copy of the other");
+      exclude(strip, ExclusionReason::copy, map, selection);
+    }
+  }
+}
+
 /// Strips whose firing points are less certain than the trajectory, because their times are
 /// rounded.
 void excludeRoundedTimes(const BlockIndex& index, double position_std, StripSelection& selection) {
@@ -118,6 +132,7 @@ StripSelection selectStrips(const BlockStrips& strips, const BlockIndex& index,
   StripSelection selection{strips, {}, {}};
   excludeUnpaired(request, selection.strips);
   excludeSmall(index.map(), request.settings.minimum_points, selection);
+  excludeCopies(index.map(), selection);
   excludeRoundedTimes(index, request.settings.shared_errors.position, selection);
   return selection;
 }

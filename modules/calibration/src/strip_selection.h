@@ -16,8 +16,8 @@ struct StripSelection {
 };
 
 /** \brief Excludes strips that take part in no pair that was asked for, strips with few points,
- * and strips whose times are rounded to steps in which the sensor moves by more than the error of
- * its trajectory.
+ * copies of other strips, and strips whose times are rounded to steps in which the sensor moves by
+ * more than the error of its trajectory.
  *
  * InputError where fewer than two strips have times that are precise enough.
  */

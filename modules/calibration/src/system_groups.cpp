@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <pcl_als/common/errors.h>
 
@@ -44,6 +45,13 @@ void checkGroups(const std::vector<StripGroup>& groups, const std::vector<std::s
   }
 }
 
+/// Whether half of the shorter of two spans, or more, belongs to the other as well.
+bool areSimultaneous(const TimeSpan& a, const TimeSpan& b) {
+  const double common = std::min(a.second, b.second) - std::max(a.first, b.first);
+  const double shorter = std::min(a.second - a.first, b.second - b.first);
+  return shorter > 0.0 && common >= 0.5 * shorter;
+}
+
 double limitOf(int unknown, const DeterminationLimits& limits) {
   return unknown < kSystemParameterCount ? limits.of(static_cast<SystemParameter>(unknown))
                                          : kOffsetLimit;
@@ -51,18 +59,26 @@ double limitOf(int unknown, const DeterminationLimits& limits) {
 
 }  // namespace
 
+std::vector<int> passesOf(const std::vector<std::string>& ids, const std::vector<TimeSpan>& flown) {
+  std::vector<int> passes;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    std::size_t first = 0;
+    while (first < i && passOfStrip(ids[i]) != passOfStrip(ids[first]) &&
+           !areSimultaneous(flown[i], flown[first]))
+      ++first;
+    passes.push_back(first < i ? passes[first] : static_cast<int>(i));
+  }
+  return passes;
+}
+
 StripSystems stripSystems(const std::vector<StripGroup>& groups, const PerSystemParameters& own,
-                          const std::vector<std::string>& ids) {
+                          const std::vector<std::string>& ids, std::vector<int> pass) {
   checkGroups(groups, ids);
   StripSystems systems;
   systems.own = own;
   systems.count = std::max(1, static_cast<int>(groups.size()));
-  std::map<std::string, int> first_of_pass;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const int strip = static_cast<int>(i);
-    systems.pass.push_back(first_of_pass.try_emplace(passOfStrip(ids[i]), strip).first->second);
-    systems.system.push_back(std::max(0, groupOf(groups, ids[i])));
-  }
+  systems.pass = std::move(pass);
+  for (const std::string& id : ids) systems.system.push_back(std::max(0, groupOf(groups, id)));
   return systems;
 }
 

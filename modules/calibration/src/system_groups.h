@@ -13,10 +13,21 @@
 
 namespace pcl_als {
 
-/// The systems and passes of the strips \a ids. UsageError for a group without a strip, a strip in
-/// two groups, two groups of one name, and a strip that does not exist.
+/** \brief By strip, the first strip of its pass.
+ *
+ * Strips are of one pass if their ids are those of channels of one strip, or if half of the time of
+ * the shorter one, or more, is also time of the other, as of two scanners with ids of their own.
+ * Their trajectory errors are the same: as errors of several passes they would make standard
+ * deviations too small.
+ *
+ * \param flown first and last firing time of each strip, seconds; equal: the strip is not used
+ */
+std::vector<int> passesOf(const std::vector<std::string>& ids, const std::vector<TimeSpan>& flown);
+
+/// The systems of the strips \a ids. UsageError for a group without a strip, a strip in two groups,
+/// two groups of one name, and a strip that does not exist. \param pass by strip, passesOf()
 StripSystems stripSystems(const std::vector<StripGroup>& groups, const PerSystemParameters& own,
-                          const std::vector<std::string>& ids);
+                          const std::vector<std::string>& ids, std::vector<int> pass);
 
 /// Differences of all systems to the first one according to a solution
 /// (AdjustmentSolution::shared).

@@ -30,6 +30,8 @@ const char* sentence(ExclusionReason reason) {
       return "their GPS times are rounded";
     case ExclusionReason::too_few_points:
       return "the strip has too few points";
+    case ExclusionReason::copy:
+      return "another strip holds the same points";
   }
   return "";
 }
@@ -58,6 +60,8 @@ std::string_view toString(ExclusionReason reason) {
       return "rounded_times";
     case ExclusionReason::too_few_points:
       return "too_few_points";
+    case ExclusionReason::copy:
+      return "copy";
   }
   return "";
 }

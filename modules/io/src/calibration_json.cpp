@@ -110,11 +110,11 @@ const Fields<ExcludedPoints>& excludedFields() {
       "left_out", "Points of one strip that took no part, for one reason.",
       {F("strip", &ExcludedPoints::strip, "Strip"),
        F("reason", &ExcludedPoints::reason,
-         FieldNames<Reason>(
-             toString,
-             {Reason::excluded, Reason::zero_time, Reason::before_trajectory,
-              Reason::after_trajectory, Reason::in_trajectory_gap, Reason::strip_uncovered,
-              Reason::in_turn, Reason::hovering, Reason::rounded_times, Reason::too_few_points}),
+         FieldNames<Reason>(toString,
+                            {Reason::excluded, Reason::zero_time, Reason::before_trajectory,
+                             Reason::after_trajectory, Reason::in_trajectory_gap,
+                             Reason::strip_uncovered, Reason::in_turn, Reason::hovering,
+                             Reason::rounded_times, Reason::too_few_points, Reason::copy}),
          "Why they were excluded"),
        F("points", &ExcludedPoints::points, "Number of these points"),
        F("of", &ExcludedPoints::of, "Number of all points of the strip")});

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
 #include <utility>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/applied_correction.h>
 #include <pcl_als/io/point_reader.h>
@@ -89,6 +93,26 @@ bool sameCorrections(const std::vector<PointFileInfo>& files) {
   });
 }
 
+/// Files that hold the same points by their headers: each pair in a sentence.
+std::vector<std::string> copiesAmong(const std::vector<PointFileInfo>& files) {
+  using Box = std::array<double, 6>;
+  std::map<std::pair<std::uint64_t, Box>, const PointFileInfo*> known;
+  std::vector<std::string> copies;
+  for (const PointFileInfo& file : files) {
+    const Eigen::Vector3d size = file.maximum - file.minimum;
+    if (!(size.minCoeff() >= 0.0 && size.maxCoeff() > 0.0)) continue;  // no box is stated
+    Box box;
+    Eigen::Map<Eigen::Vector3d>(box.data()) = file.minimum;
+    Eigen::Map<Eigen::Vector3d>(box.data() + 3) = file.maximum;
+    const auto [first, is_new] = known.try_emplace({file.point_count, box}, &file);
+    if (is_new) continue;
+    copies.push_back(file.path.string() + " and " + first->second->path.string() +
+                     " hold the same points by their headers (" + grouped(file.point_count) +
+                     " in the same box): give one of them, so that none counts twice");
+  }
+  return copies;
+}
+
 /// Remarks that several files share.
 class SharedRemarks {
  public:
@@ -129,6 +153,7 @@ PointReference commonReference(const std::vector<PointFileInfo>& files) {
   requireKnownUnits(files);
   if (first != nullptr) common.crs = first->crs;
   common.remarks = remarks.texts();
+  for (std::string& copy : copiesAmong(files)) common.remarks.push_back(std::move(copy));
   if (!sameCorrections(files))
     common.remarks.emplace_back(
         "the files were not corrected alike: strips that are compared should be");

@@ -38,7 +38,11 @@ double surveySigma(const ControlPoint& point, double default_sigma) {
 /// Finds common offsets; differences far from zero and from these are not used.
 void judgeDistances(const std::vector<std::string>& strips, double survey_sigma,
                     ControlAssessment& result) {
-  result.offsets = commonOffsets(result.differences, strips, survey_sigma);
+  result.contradiction = contradictingControl(result.differences, strips, survey_sigma);
+  // The few points of a single strip may be of the wrong group.
+  const std::vector<std::string> single =
+      result.contradiction ? std::vector<std::string>{} : strips;
+  result.offsets = commonOffsets(result.differences, single, survey_sigma);
   for (ControlDifference& d : result.differences) {
     if (!d.unfit.empty() || std::abs(d.above) <= result.distance_limit) continue;
     if (result.far.empty() || result.far.back() != d.point) result.far.push_back(d.point);
@@ -166,6 +170,10 @@ ControlAssessment assessControl(std::vector<ControlDifference> differences,
 Warnings warningsOf(const ControlAssessment& control) {
   Warnings warnings;
   if (!control.offsets.empty()) warnings.emplace_back(offsetText(control.offsets));
+  if (control.contradiction)
+    warnings.emplace_back("the control points contradict each other: strip " +
+                          control.contradiction->strip + " lies " + control.contradiction->text +
+                          ": check how the heights of these points were measured");
   const std::string far = farText(control);
   if (!far.empty())
     warnings.emplace_back(

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <utility>
 
 #include <pcl_als/adjustment/clustered_regression.h>
+#include <pcl_als/common/control_groups.h>
 #include <pcl_als/common/distributions.h>
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/number_text.h>
@@ -23,13 +25,15 @@ constexpr double kLargestPlanStd = 0.5;   // metres: larger ones do not determin
 constexpr std::size_t kUnknowns = 3;      // of a movement
 constexpr double kChanceInPlan = 0.001;   // of a significant shift, two-sided
 
-/// Mean difference of each point, of one strip or of all.
-std::map<std::string, RunningStatistics> byPoint(const std::vector<ControlDifference>& differences,
-                                                 const std::string& strip) {
+/// Id and mean difference of each point, of one strip or of all, by id.
+std::vector<std::pair<std::string, double>> byPoint(
+    const std::vector<ControlDifference>& differences, const std::string& strip) {
   std::map<std::string, RunningStatistics> points;
   for (const ControlDifference& d : differences)
     if (d.unfit.empty() && (strip.empty() || d.strip == strip)) points[d.point].add(d.above);
-  return points;
+  std::vector<std::pair<std::string, double>> means;
+  for (const auto& [point, heights] : points) means.emplace_back(point, heights.mean());
+  return means;
 }
 
 Eigen::Vector2d slopeOf(const ControlDifference& d) {
@@ -63,10 +67,27 @@ std::string CommonOffset::describe() const {
          (strip.empty() ? "" : " that it covers");
 }
 
+std::optional<ContradictingControl> contradictingControl(
+    const std::vector<ControlDifference>& differences, const std::vector<std::string>& strips,
+    double survey_sigma) {
+  std::optional<ContradictingControl> found;
+  std::size_t most = 0;
+  for (const std::string& strip : strips) {
+    auto heights = byPoint(differences, strip);
+    if (heights.size() <= most) continue;
+    const std::size_t points = heights.size();
+    auto groups = controlGroups(std::move(heights), std::max(survey_sigma, kLeastScatter));
+    if (!groups) continue;
+    found = {strip, groups->separation, groups->lower, groups->higher, groups->describe()};
+    most = points;
+  }
+  return found;
+}
+
 std::optional<CommonOffset> commonOffset(const std::vector<ControlDifference>& differences,
                                          const std::string& strip, double survey_sigma) {
   std::vector<double> heights;
-  for (const auto& [point, height] : byPoint(differences, strip)) heights.push_back(height.mean());
+  for (const auto& [point, height] : byPoint(differences, strip)) heights.push_back(height);
   if (heights.size() < kFewestCommon) return std::nullopt;
   std::vector<double> sorted = heights;
   const double median = medianInPlace(sorted);

@@ -62,6 +62,17 @@ const Fields<CommonOffset>& offsetFields() {
   return fields;
 }
 
+const Fields<ContradictingControl>& contradictionFields() {
+  using C = ContradictingControl;
+  static const Fields<C> fields(
+      "contradicting_control", "Two groups of control points that contradict each other.",
+      {{"strip", &C::strip, "The strip that lies at different heights above the groups"},
+       {"separation_m", &C::separation, "Height above the one group less that above the other"},
+       {"higher", &C::higher, "Points that the strip lies higher above"},
+       {"lower", &C::lower, "Points that the strip lies lower above"}});
+  return fields;
+}
+
 bool isClassed(const ControlAssessment& control) {
   return control.no_class.empty();
 }
@@ -178,6 +189,9 @@ const Fields<ControlAssessment>& controlFields() {
        {"unseen", &C::unseen, "Points that no strip covers"},
        {"far", &C::far, "Points that are far above or below the strips"},
        {"offsets", &C::offsets, offsetFields(), "Offsets that points have in common"},
+       {"contradiction", [](const C& c) { return *c.contradiction; }, contradictionFields(),
+        "Points that contradict each other",
+        onlyIf([](const C& c) { return c.contradiction.has_value(); })},
        {"shift_onto_control", &C::shift, shift, "Movement of the strips onto control"},
        {"all", &C::all, summaryFields(), "All strips at all points"},
        {"strips", &C::strips, strip, "Strips that have a point"},

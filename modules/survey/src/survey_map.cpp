@@ -113,6 +113,18 @@ void SurveyMap::getStrip(int strip, ByteReader& in) {
   in.getHashed(to.cells, buckets, [](ByteReader& i, Cell& cell) { i.get(cell); });
 }
 
+bool SurveyMap::areCopies(int a, int b) const {
+  const StripCells &one = strips_[static_cast<std::size_t>(a)],
+                   &other = strips_[static_cast<std::size_t>(b)];
+  if (one.points == 0 || one.points != other.points || one.start != other.start ||
+      one.end != other.end || one.cells.size() != other.cells.size())
+    return false;
+  return std::all_of(one.cells.begin(), one.cells.end(), [&](const auto& entry) {
+    const auto same = other.cells.find(entry.first);
+    return same != other.cells.end() && same->second.points == entry.second.points;
+  });
+}
+
 std::optional<double> SurveyMap::lowestAt(int strip, const Eigen::Vector3d& position) const {
   const auto& cells = strips_[static_cast<std::size_t>(strip)].cells;
   const auto cell = cells.find(keyOf(position));

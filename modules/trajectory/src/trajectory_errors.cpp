@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/strip_group.h>
 #include <pcl_als/trajectory/trajectory_errors.h>
 
 namespace pcl_als {
@@ -23,6 +22,15 @@ bool usable(const std::vector<TrajectoryErrorKnot>& knots) {
   return true;
 }
 
+/// Whether two strips have the same errors: channels of a scanner, or scanners of one pass with ids
+/// of their own.
+bool haveSameErrors(const std::vector<TrajectoryErrorKnot>& a,
+                    const std::vector<TrajectoryErrorKnot>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
+    return one.time == other.time && one.position == other.position && one.angles == other.angles;
+  });
+}
+
 }  // namespace
 
 TrajectoryErrors::TrajectoryErrors(const std::vector<StripErrors>& strips) {
@@ -37,13 +45,8 @@ TrajectoryErrors::TrajectoryErrors(const std::vector<StripErrors>& strips) {
   std::sort(in_order.begin(), in_order.end(), [](const StripErrors* a, const StripErrors* b) {
     return a->knots.front().time < b->knots.front().time;
   });
-  std::string pass;
   for (const StripErrors* strip : in_order) {
-    // Channels of a scanner have the errors of their pass.
-    if (!strips_.empty() && passOfStrip(strip->id) == pass && strip->id != pass &&
-        strip->knots.front().time == strips_.back().knots.front().time)
-      continue;
-    pass = passOfStrip(strip->id);
+    if (!strips_.empty() && haveSameErrors(strips_.back().knots, strip->knots)) continue;
     if (!strips_.empty() && strip->knots.front().time < strips_.back().knots.back().time) {
       throw InputError(
           "strip corrections: strip " + strip->id +

@@ -21,6 +21,7 @@ enum class ExclusionReason {
   hovering,           ///< measured while the sensor hovered between strips
   rounded_times,      ///< GPS times of the strip have too coarse steps for its trajectory
   too_few_points,     ///< the strip has too few points
+  copy,               ///< the points of the strip are also those of another strip
 };
 
 /// "excluded", "zero_time", …: the word of result files.

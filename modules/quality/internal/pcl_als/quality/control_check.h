@@ -32,10 +32,11 @@ struct ControlAssessment {
   std::vector<std::string> unseen;             ///< points that no strip covers
   /// Points that strips cover, but at more than distance_limit above or below them.
   std::vector<std::string> far;
-  double distance_limit = 0.0;               ///< metres: SurfaceLimits::maximum_distance
-  std::vector<CommonOffset> offsets;         ///< offsets that points have in common, of any size
-  HorizontalShift shift;                     ///< movement of the strips onto control
-  std::optional<VerticalAccuracy> accuracy;  ///< of all; empty without a point
+  double distance_limit = 0.0;        ///< metres: SurfaceLimits::maximum_distance
+  std::vector<CommonOffset> offsets;  ///< offsets that points have in common, of any size
+  std::optional<ContradictingControl> contradiction;  ///< points that contradict each other
+  HorizontalShift shift;                              ///< movement of the strips onto control
+  std::optional<VerticalAccuracy> accuracy;           ///< of all; empty without a point
   /// Why the figures are not those of the block, hence neither class nor level; empty: they are.
   std::string no_class;
   bool survey_known = false;         ///< the file gives the standard deviations of the heights
@@ -60,7 +61,8 @@ ControlAssessment assessControl(std::vector<ControlDifference> differences,
                                 const std::vector<std::string>& strips, double default_sigma,
                                 double distance_limit = SurfaceLimits().maximum_distance);
 
-/// What a user should know of the comparison: offsets in common, a shift in plan, points far off.
+/// What a user should know of the comparison: offsets in common, points that contradict each other,
+/// a shift in plan, points far off.
 Warnings warningsOf(const ControlAssessment& control);
 
 }  // namespace pcl_als

@@ -36,6 +36,24 @@ struct CommonOffset {
   std::string describe() const;
 };
 
+/// Two groups of control points above which one strip lies at different heights.
+struct ContradictingControl {
+  std::string strip;
+  double separation = 0.0;                 ///< metres, between the groups' means
+  std::vector<std::string> lower, higher;  ///< ids, by the height of the strip above the points
+  std::string text;                        ///< both groups in words (ControlGroups::describe())
+};
+
+/** \brief Finds out whether control points contradict each other.
+ *
+ * The heights of one strip are compared, so that an offset between strips cannot be the reason
+ * (controlGroups() with \a survey_sigma, metres, or 1 cm where that is larger). Of several such
+ * strips, the one that covers most points is returned.
+ */
+std::optional<ContradictingControl> contradictingControl(
+    const std::vector<ControlDifference>& differences, const std::vector<std::string>& strips,
+    double survey_sigma);
+
 /** \brief Finds a height offset that is common to the control points, however large it is.
  *
  * It exists if the median of the points differs from zero by more than three times their robust

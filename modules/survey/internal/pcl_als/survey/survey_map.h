@@ -86,6 +86,9 @@ class SurveyMap {
   };
   HeightOffset heightOffset(const StripPair& pair) const;
 
+  /// Whether two strips hold the same points: as many in the same cells, at the same times.
+  bool areCopies(int a, int b) const;
+
   /// Deletes the cells: from then on strips have numbers of points and times only.
   void releaseCells();
 

@@ -18,8 +18,9 @@ namespace pcl_als {
  */
 class TrajectoryErrors {
  public:
-  /// InputError when strips overlap in time (two scanners at once: their errors are not one
-  /// function of time), when knots are not in order or a value is not finite.
+  /// Strips of one pass have the same errors, which count once. InputError when the errors of
+  /// strips that overlap in time differ, because they are not one function of time, when knots are
+  /// not in order or a value is not finite.
   explicit TrajectoryErrors(const std::vector<StripErrors>& strips);
 
   bool empty() const { return strips_.empty(); }
