@@ -201,7 +201,7 @@ TEST(SurveyBlock, ExcludesACopyOfAStrip) {
   EXPECT_TRUE(chosen(given).excluded.empty());
 }
 
-// Two scanners whose strips have ids of their own; the third strip is another pass.
+// Two scanners whose strips have ids of their own; the second strip is another pass.
 TEST(SurveyBlock, StripsOfOneTimeAreOnePass) {
   HandMadeBlock given = planes({0.0, 0.1});
   given.strips.push_back(given.strips[0]);

@@ -53,7 +53,7 @@ std::string checkControl(const BlockStrips& strips, const SurveyMap& map,
   return coverage.remark;
 }
 
-/// The strips with their systems, which are compared by session and channel where none are given.
+/// The strips with their passes and systems; by session, channel and scanner where none are given.
 void assignSystems(SurveyBlock& block) {
   const CalibrationSettings& settings = block.settings();
   const std::vector<std::string>& ids = block.strips.ids;

@@ -171,9 +171,9 @@ Warnings warningsOf(const ControlAssessment& control) {
   Warnings warnings;
   if (!control.offsets.empty()) warnings.emplace_back(offsetText(control.offsets));
   if (control.contradiction)
-    warnings.emplace_back("the control points contradict each other: strip " +
-                          control.contradiction->strip + " lies " + control.contradiction->text +
-                          ": check how the heights of these points were measured");
+    warnings.emplace_back(
+        "the control points contradict each other: " + control.contradiction->describe() +
+        ": check how the heights of these points were measured");
   const std::string far = farText(control);
   if (!far.empty())
     warnings.emplace_back(

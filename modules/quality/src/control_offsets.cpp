@@ -67,6 +67,10 @@ std::string CommonOffset::describe() const {
          (strip.empty() ? "" : " that it covers");
 }
 
+std::string ContradictingControl::describe() const {
+  return "strip " + strip + " lies " + ControlGroups{separation, lower, higher}.describe();
+}
+
 std::optional<ContradictingControl> contradictingControl(
     const std::vector<ControlDifference>& differences, const std::vector<std::string>& strips,
     double survey_sigma) {
@@ -78,7 +82,7 @@ std::optional<ContradictingControl> contradictingControl(
     const std::size_t points = heights.size();
     auto groups = controlGroups(std::move(heights), std::max(survey_sigma, kLeastScatter));
     if (!groups) continue;
-    found = {strip, groups->separation, groups->lower, groups->higher, groups->describe()};
+    found = {strip, groups->separation, groups->lower, groups->higher};
     most = points;
   }
   return found;

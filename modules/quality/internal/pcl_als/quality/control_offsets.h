@@ -41,7 +41,9 @@ struct ContradictingControl {
   std::string strip;
   double separation = 0.0;                 ///< metres, between the groups' means
   std::vector<std::string> lower, higher;  ///< ids, by the height of the strip above the points
-  std::string text;                        ///< both groups in words (ControlGroups::describe())
+
+  /// "strip 3 lies 0.298 m higher above 19 of them (A, B, …) than above the other 18 (C, D, …)"
+  std::string describe() const;
 };
 
 /** \brief Finds out whether control points contradict each other.
