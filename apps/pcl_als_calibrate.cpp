@@ -115,6 +115,10 @@ CommandLine commandLine() {
       .in(app::Group::estimation);
   addOutputs(line);
   app::addErrorOptions(line);
+  line.addFlag("no_range_std",
+               "give all ranges the noise of -range_noise alone, also where the points have the "
+               "extra bytes range_std of decomposed waveforms, which are added to it otherwise")
+      .in(app::Group::priors);
   app::addAccuracyOption(line,
                          "their root mean squares over the strips are the prior standard "
                          "deviations of trajectory errors that no option gives");
@@ -213,6 +217,7 @@ int calibrate(const CommandLine& line) {
   if (line.has("system_name")) options.system_name = line.text("system_name");
   const app::GivenPrior prior(line, options.settings);
   if (line.has("pairs")) options.pairs = line.parsed("pairs", pairsIn);
+  options.use_range_std = !line.has("no_range_std");
   options.strips = app::stripChoice(line);
   app::checkFlightOptions(line);
   options.gps_week = app::gpsWeek(line);

@@ -29,6 +29,8 @@ void declareScene(CommandLine& line) {
   line.addNumber("relief", "factor on the heights of the terrain; 0: a plane", 1.0, {0.0, 1.5});
   line.addNumber("buildings", "factor on their number", 1.0, {0.0, 1.0});
   line.addNumber("trees", "factor on their number", 1.0, {0.0, 4.0});
+  line.addNumber("grass", "largest height of the blades of grass, which pulses meet at all heights",
+                 0.0, {0.0, 1.0, "m"});
 }
 
 void addNoise(CommandLine& line) {
@@ -68,6 +70,8 @@ void addPointOptions(CommandLine& line) {
   line.addNumber("range_exponent", "power of the range with which intensity decreases", 2.0,
                  {0.0, 4.0});
   line.addNumber("incidence_exponent", "power of cos(incidence); 1: Lambertian", 1.0, {0.0, 4.0});
+  line.addNumber("divergence", "divergence of the beam, between its 1/e^2 points", 0.33,
+                 {0.0, 10.0, "mrad"});
   line.addNumber("visibility", "visibility", 48.3, {0.1, 500.0, "km"});
   line.addChoice("format", "format of the strips", {"las", "laz"}, "las").in(Group::output);
 }
@@ -202,6 +206,7 @@ SimulationOptions optionsFrom(const CommandLine& line) {
       SimulationOptions::preset(line.text("preset"), line.number("scale"), line.number("density"),
                                 line.number("fov") * kRadiansPerDegree, line.number("height"));
   if (line.has("scanner")) options.setScanner(line.text("scanner"));
+  options.scanner.divergence = 1e-3 * line.number("divergence");
   options.seed = line.whole("seed");
   options.noise = NoiseOptions::named(line.text("noise"));
   if (line.has("ins")) options.noise.setTrajectoryGrade(line.text("ins"));
@@ -217,6 +222,7 @@ SimulationOptions optionsFrom(const CommandLine& line) {
   options.scene.relief *= line.number("relief");
   options.scene.buildings = line.number("buildings");
   options.scene.trees = line.number("trees");
+  options.scene.grass = line.number("grass");
   options.targets = static_cast<int>(line.whole("target_count"));
   options.target_diameter = line.number("target_diameter");
   setIntensity(line, options);

@@ -19,7 +19,7 @@ void addOutputs(CommandLine& line) {
   const OptionGroup group(line, Group::output);
   const std::vector<std::string> raster{".tif", ".tiff"};
   line.addOutputFile("output", "the map of classes; -grids may be written without it", raster);
-  line.addOutputFile("grids", "also keep the rasters of the strips, in nine bands", raster);
+  line.addOutputFile("grids", "also keep the rasters of the strips, in bands", raster);
   line.addOutputFile("posterior", "the posterior probability of the class of each cell", raster);
   line.addOutputFile("accuracy", "accuracy at the check points", {".json"});
   line.addOutputFile("checked", "the check points with their classes, for pcl_als_accuracy",
@@ -43,6 +43,25 @@ void addOutputs(CommandLine& line) {
     line.makeDependent(name, "output");
   for (const char* name : {"accuracy", "checked"}) line.makeDependent(name, "checkpoints");
   line.makeDependent("beside", "map");
+}
+
+/// How the rasters are made.
+void addRasterOptions(CommandLine& line) {
+  line.addChoice("interpolation", "interpolation of cells without points", {"tin", "idw"}, "tin");
+  line.addNumber("surface_gap", "radius of the largest gap of the surface that is filled", 6.0,
+                 {0.0, 1000.0, "m"});
+  line.addNumber("terrain_gap", "the same for the terrain (houses, woods)", 30.0,
+                 {0.0, 1000.0, "m"});
+  line.addChoice("ground",
+                 "terrain from points of ground classes (class) or by a "
+                 "morphological filter (filter)",
+                 {"class", "filter"}, "class");
+  line.addText("ground_classes", "ASPRS classes that are ground", "2,9,11");
+  line.addNumber("largest_object", "width of the widest building, for -ground filter", 40.0,
+                 {1.0, 500.0, "m"});
+  line.addNumber("texture_window", "side of the square of slope, roughness and returns", 2.5,
+                 {0.0, 1000.0, "m"});
+  line.addWhole("tile", "side of the tiles that are processed", 768, {64, 8192, "cells"});
 }
 
 }  // namespace
@@ -75,8 +94,9 @@ CommandLine declareClassify() {
                "point files); heights are in metres")
       .in(Group::output);
   line.addText("bands",
-               "bands by which classes are separated, from surface, terrain, height, "
-               "intensity, slope, roughness, multiple_returns, height_range, density",
+               "bands by which classes are separated, from " +
+                   joined(SurfaceAccumulator::bandNames()) +
+                   "; echo_width: of points decomposed by pcl_als_waveform",
                "height,intensity,roughness,multiple_returns");
   line.addText("priors",
                "CLASS=P,…: probabilities of classes; the others share the rest (default: equal)")
@@ -87,21 +107,7 @@ CommandLine declareClassify() {
   line.addNumber("training_radius",
                  "radius around a training point within which cells are training cells", 0.0,
                  {0.0, 1000.0, "m"});
-  line.addChoice("interpolation", "interpolation of cells without points", {"tin", "idw"}, "tin");
-  line.addNumber("surface_gap", "radius of the largest gap of the surface that is filled", 6.0,
-                 {0.0, 1000.0, "m"});
-  line.addNumber("terrain_gap", "the same for the terrain (houses, woods)", 30.0,
-                 {0.0, 1000.0, "m"});
-  line.addChoice("ground",
-                 "terrain from points of ground classes (class) or by a "
-                 "morphological filter (filter)",
-                 {"class", "filter"}, "class");
-  line.addText("ground_classes", "ASPRS classes that are ground", "2,9,11");
-  line.addNumber("largest_object", "width of the widest building, for -ground filter", 40.0,
-                 {1.0, 500.0, "m"});
-  line.addNumber("texture_window", "side of the square of slope, roughness and returns", 2.5,
-                 {0.0, 1000.0, "m"});
-  line.addWhole("tile", "side of the tiles that are processed", 768, {64, 8192, "cells"});
+  addRasterOptions(line);
   return line;
 }
 

@@ -59,6 +59,21 @@ expect 1 "there is no strip 9.ch1" calibrate "${strips[@]}" "${flight[@]}" -chan
 expect 1 "NAME=STRIPS" calibrate "${strips[@]}" "${flight[@]}" -systems a -output no.json
 absent no.json
 
+# The scanners of a system as strips with ids of their own, 10 k and 10 k + 1, without the field of the channel.
+for k in 3 4 5; do
+  run convert cross/strip$k.las channels.ply -ascii
+  awk 'body { $id = 10 * $id + int($flags / 64); $flags %= 64 }
+    /^property/ { ++count; if ($3 == "point_source_id") id = count; if ($3 == "flags") flags = count }
+    /^end_header/ { body = 1 } { print }' channels.ply >ids$k.ply
+done
+expect 3 "scanner2_boresight_roll: boresight roll of scanner 2 against scanner 1 differs by 1[12]" \
+  calibrate ids[345].ply "${flight[@]}" -output ids.json
+expect 0 converged calibrate ids[345].ply "${flight[@]}" -systems a=30,40,50 b=31,41,51 -own boresight -output ids.json
+read -r first second < <(awk '/"boresight_roll"/ { getline; gsub(/[^-0-9.e]/, "", $2); printf "%s ", $2 }' ids.json |
+  awk '{ print $2, $3 }')
+check "roll of the first scanner, $first" awk -v v="$first" 'BEGIN { exit !(v > -4 && v < 4) }'
+check "roll of the second scanner, $second" awk -v v="$second" 'BEGIN { exit !(v > 116 && v < 124) }'
+
 # More than four channels are in the user data; the scanner channel is 0 for all of them.
 run simulate -output multi -preset small -scale 0.3 -density 0.5 -scanner multi:6 -noise range
 run check multi/strip3.las multi/strip4.las -channels scanner_channel -output one.json

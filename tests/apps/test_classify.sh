@@ -123,6 +123,8 @@ expect 0 '2 check sites outside of the rasters' classify "${strips[@]}" -trainin
 expect 1 'options -output and -grids is needed' classify "${strips[@]}" -training "$training"
 expect 1 '-training and -class_model' classify "${strips[@]}" -output bad.tif
 expect 1 "no band 'colour'" classify "${strips[@]}" -training "$training" -output bad.tif -bands colour
+expect 2 'no point has the extra bytes echo_width' classify "${strips[@]}" -training "$training" \
+  -output bad.tif -cell 5 -bands height,echo_width
 expect 1 'option -cell' classify "${strips[@]}" -training "$training" -output bad.tif -cell 0
 expect 1 'option -bounds' classify "${strips[@]}" -training "$training" -output bad.tif -bounds 1,2,3
 expect 1 'no such class' classify "${strips[@]}" -training "$training" -output bad.tif -priors water=0.5 -cell 5

@@ -55,6 +55,8 @@ check "width of the pulse" grep -Eq "descriptor 1: pulse of (2\.9|3\.0)[0-9] ns"
 check "truth" grep -q '"bits": 8' narrow/truth.json
 run simulate -output again "${small[@]}" -waveforms -pulse_width 3 -sample_bits 8 -sample_spacing 0.5 -threads 3
 check "the same waveforms by three threads" cmp narrow/strip1.wdp again/strip1.wdp
+expect 0 "Classifying by height, echo_width" classify narrow_echoes.las -training narrow/training.csv \
+  -cell 5 -output cover.tif -bands height,echo_width
 awk 'BEGIN { print "time_ns,value"; for (t = -10; t <= 10; t += 0.5) print t "," exp(-t * t / 8) * (1 + t / 12) }' >pulse.csv
 run simulate -output sampled "${small[@]}" -waveforms -pulse pulse.csv -noise realistic
 decomposed sampled/strip1.las sampled_echoes.las -pulse pulse.csv

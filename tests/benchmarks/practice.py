@@ -430,6 +430,73 @@ def over_input(block):
                      "-bias", "boresight_roll=1")
 
 
+def copy_as(number):
+    def change(records, _):
+        records["id"] = number
+    return change
+
+
+@situation("a copy of a strip under another id, `calibrate`", "9 is 2",
+           r"9.*(copy|same points)[\s\S]*largest error: [0-2]\.")
+def copied_strip(block):
+    block.simulate()
+    edit(block.strips()[1], copy_as(9), block.folder / "strip9.las")
+    status, text = block.calibrate()
+    return status, text + block.errors()
+
+
+@situation("half of the control points 0.3 m high, `check`", "0.3 m between two groups",
+           r"contradict.*0\.(29|30)\d? m")
+def contradicting_control(block):
+    block.simulate("-bias", "none")
+    count = [0]
+
+    def every_other(row, columns):
+        count[0] += 1
+        return moved("z", 0.3)(row, columns) if count[0] % 2 else row
+    edit_csv(block.control, every_other)
+    return block.check("-control", block.control)
+
+
+def scanner_ids(records, _):
+    records["id"] = 10 * records["id"] + ((records["flags"] >> 4) & 3)
+
+
+@situation("two scanners with ids of their own, `calibrate`", "roll, pitch and heading -90\", ...",
+           r"largest error: [0-2]\.\d", r"scanner2_\w+:")
+def scanners_with_ids(block):
+    block.simulate("-scanner", "dual")
+    for strip in block.strips():
+        edit(strip, scanner_ids)
+    status, text = block.calibrate()
+    return status, text + block.errors()
+
+
+@situation("the same, one 60\" from the other, `calibrate`", "scanner 2 differs by 60\" in roll",
+           r"scanner2.*roll.*differs by -?[56]\d", r"verdict: usable")
+def different_scanners(block):
+    block.simulate("-scanner", "dual", "-error", "channel1:boresight_roll=60")
+    for strip in block.strips():
+        edit(strip, scanner_ids)
+    return block.calibrate()
+
+
+@situation("headings from true north in a grid turned by 1.5°, `calibrate`", "1.5°",
+           r"boresight_heading is 1\.5\d degrees.*true north")
+def true_north(block):
+    block.simulate("-bias", "none")
+    edit_csv(block.trajectory, moved("heading", 1.5))
+    return block.calibrate()
+
+
+@situation("one strip with ellipsoidal heights, `check`", "45.3 m",
+           r"too far apart|no common surface|45\.3")
+def ellipsoidal_strip(block):
+    block.simulate("-bias", "none")
+    edit(block.strips()[2], raised(45.3))
+    return block.check()
+
+
 def sentence(text, expected):
     """The line of a text that the expression finds, shortened."""
     found = re.search(expected, text)

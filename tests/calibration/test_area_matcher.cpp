@@ -104,6 +104,29 @@ TEST(AreaMatcher, PairsOfOneSlopeHaveOneDirection) {
   for (const PairObservation& o : found) EXPECT_NEAR(o.normal.x(), -0.04, 0.01);
 }
 
+// Echoes of strip A with 3 cm and of strip B with 1 cm: level distances of A's points contain 9
+// cm^2 and the square sum of three weights (1/3 to 1) of 1 cm^2, along beams within 3 degrees of
+// the vertical.
+TEST(AreaMatcher, AddsTheNoiseOfEchoes) {
+  const Trajectory trajectory = flight();
+  const auto a = sampled(1, -8.0, 58.0, {0, 0, 0}), b = sampled(2, -8.0, 58.0, {0, 0, -0.05});
+  AreaMatcher matcher(kArea, 2);
+  for (const LidarReturn& p : a) matcher.add(0, p, 0.03F);
+  for (const LidarReturn& p : b) matcher.add(1, p, 0.01F);
+  matcher.prepare(SurfaceCriterion(), 500, 0.001, trajectory);
+  const AreaObservations with = matcher.match({{0, 1}}, 0.5, trajectory, NoiseModel());
+  const AreaObservations without = matcherOf(a, b).match({{0, 1}}, 0.5, trajectory, NoiseModel());
+  ASSERT_EQ(with.size(), without.size());
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    EXPECT_EQ(without[i].echo, 0.0F);
+    EXPECT_NEAR(with[i].variance - without[i].variance, with[i].echo, 1e-8);
+    if (with[i].normal.z() < 1.0) continue;
+    const double point = with[i].a == 0 ? 9e-4 : 1e-4, vertex = with[i].a == 0 ? 1e-4 : 9e-4;
+    EXPECT_GE(with[i].echo, 0.99 * (point + vertex / 3.0));
+    EXPECT_LE(with[i].echo, point + vertex);
+  }
+}
+
 TEST(AreaMatcher, DividesPairsByDistance) {
   const Trajectory trajectory = flight();
   const auto a = sampled(1, -8.0, 58.0, {0, 0, 0});

@@ -133,6 +133,26 @@ TEST(CalibrationJudgement, ABiasThatReducesNoMisfitIsRemarkedOn) {
   EXPECT_TRUE(warningsOf(1.2e-4, kSmaller).empty());
 }
 
+// Headings from true north in a grid with a convergence of 1.5 degrees (2026-11: calibrated as
+// 5400" without a word).
+TEST(CalibrationJudgement, AnglesBeyondAllMountingsAreRemarkedOn) {
+  const auto warningsOf = [](SystemParameter p, double degrees) {
+    CalibrationResult result = resultWith(1e-4, 1e-5, kSmaller);
+    result[p] = {3600.0 * degrees * kRadiansPerArcsec, 1e-5, 0.0, ParameterStatus::estimated, ""};
+    judgeCalibration({}, "", result);
+    EXPECT_TRUE(result.verdict.usable());
+    return result.warnings;
+  };
+  const Warnings heading = warningsOf(P::boresight_heading, -1.5);
+  ASSERT_EQ(heading.size(), 1U);
+  EXPECT_EQ(heading[0].text.find("boresight_heading is -1.50 degrees"), 0U) << heading[0].text;
+  EXPECT_NE(heading[0].text.find("true north"), std::string::npos);
+  const Warnings pitch = warningsOf(P::boresight_pitch, 0.51);
+  ASSERT_EQ(pitch.size(), 1U);
+  EXPECT_NE(pitch[0].text.find("nominal angles"), std::string::npos);
+  EXPECT_TRUE(warningsOf(P::boresight_roll, 0.49).empty());
+}
+
 TEST(CalibrationJudgement, ALargerMisfitIsNoImprovement) {
   // 2026-11: a block whose misfit grew from 3.1 to 3.3 cm was reported as calibrated.
   const CalibrationVerdict verdict = verdictOn(resultWith(1e-5, 1e-5, kLarger));

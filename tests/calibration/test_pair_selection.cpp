@@ -233,11 +233,35 @@ TEST(PairWeights, FindsHowWellASystemPoints) {
   PairWeights weights;
   weights.findScales(residuals);
   weights.update(residuals, true);
-  EXPECT_LE(weights.pointingFactor(), 0.1);
+  EXPECT_LE(weights.factors().pointing, 0.1);
   // Weight over the model's variance: slopes count as much as flat ground.
   EXPECT_NEAR(weights.weights()[0][0] / areas[0][0].variance,
               weights.weights()[0][1] / areas[0][1].variance, 0.1 / 4e-4);
   EXPECT_NEAR(weights.sigma0(), std::sqrt(0.75), 0.03);  // against the noise as given
+}
+
+// Every other echo states a standard deviation of 2 cm of its range, and the common noise is 5 mm
+// in place of the 2 cm of the model: of the variances 4 and 8 cm^2 that the model gives, those of
+// the data are 0.25 and 4.25 cm^2, in the ratio of echoes with 16 times their part.
+TEST(PairWeights, FindsTheNoiseThatEchoesState) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  std::vector<AreaObservations> areas(1);
+  PairWeights::Residuals residuals(1);
+  for (int i = 0; i < 4000; ++i) {
+    PairObservation o = pairAt(100.0, Eigen::Vector3d::UnitZ());
+    o.echo = i % 2 == 0 ? 4e-4F : 0.0F;
+    o.pointing = 0.0F;
+    o.variance = 4e-4F + o.echo;
+    areas[0].push_back(o);
+    residuals[0].emplace_back(o, std::sqrt(i % 2 == 0 ? 4.25e-4 : 0.25e-4) * normal(random));
+  }
+  PairWeights weights;
+  weights.findScales(residuals);
+  weights.update(residuals, false);
+  EXPECT_EQ(weights.factors().echo, 16.0);
+  EXPECT_EQ(weights.factors().pointing, 1.0);
+  EXPECT_NEAR(weights.meanScale(), 0.25, 0.01);
 }
 
 TEST(PairWeights, RejectsOutliersOnlyWhenAsked) {

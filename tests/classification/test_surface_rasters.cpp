@@ -85,6 +85,40 @@ TEST(SurfaceRasters, OneCellByHand) {
   EXPECT_TRUE(std::isnan(at(result, "slope", 5, 5)));
 }
 
+// By hand: a pulse of three echoes at 310, 304 and 301 m and a pulse of one at 301 m, of which the
+// second echo has no width. Mean 304 m, squares of the differences 36 + 0 + 9 + 9.
+TEST(SurfaceRasters, EchoesOfOneCellByHand) {
+  SurfaceAccumulator tile(kGrid, {});
+  const double x = kGrid.centreX(5), y = kGrid.centreY(5);
+  tile.add({x, y, 310.0, 40.0F, 1, 3, kLeaves, 5.5F});
+  tile.add({x, y, 304.0, 20.0F, 2, 3, kLeaves});
+  tile.add({x, y, 301.0, 10.0F, 3, 3, kGround, 4.5F});
+  tile.add({x, y, 301.0, 60.0F, 1, 1, kGround, 4.1F});
+  tile.add({kGrid.centreX(8), y, 301.0, 60.0F, 1, 1, kGround});
+  const SurfaceResult result = tile.compute();
+  EXPECT_EQ(at(result, "echoes_per_pulse", 5, 5), 2.0F);
+  EXPECT_NEAR(at(result, "height_std", 5, 5), std::sqrt(54.0 / 4.0), 1e-5);
+  EXPECT_NEAR(at(result, "echo_width", 5, 5), 4.7, 1e-5);
+  EXPECT_EQ(at(result, "echoes_per_pulse", 8, 5), 1.0F);
+  EXPECT_EQ(at(result, "height_std", 8, 5), 0.0F);
+  EXPECT_TRUE(std::isnan(at(result, "echo_width", 8, 5)));
+  EXPECT_TRUE(std::isnan(at(result, "echoes_per_pulse", 6, 5)));
+}
+
+// Cells without returns have the values of their neighbours, linearly.
+TEST(SurfaceRasters, EchoesAreInterpolated) {
+  SurfaceAccumulator tile(kGrid, {});
+  for (int row = 0; row < kGrid.rows; row += 3)
+    for (int column = 0; column < kGrid.columns; column += 3)
+      tile.add({kGrid.centreX(column), kGrid.centreY(row), 300.0, 1.0F, 1,
+                static_cast<std::uint8_t>(1 + row / 3), kGround,
+                static_cast<float>(4.0 + 0.1 * column)});
+  const SurfaceResult result = tile.compute();
+  EXPECT_NEAR(at(result, "echo_width", 10, 13), 5.0, 1e-5);
+  EXPECT_NEAR(at(result, "echoes_per_pulse", 10, 13), 1.0 + 13.0 / 3.0, 1e-5);
+  EXPECT_EQ(at(result, "height_std", 10, 13), 0.0F);
+}
+
 // Of a 3 x 3 window around a spike of 9 m among zeros the plane is level at 1 m, the residuals are
 // 8 m once and -1 m eight times: RMS sqrt(72 / 9).
 TEST(SurfaceRasters, RoughnessOfASpikeByHand) {

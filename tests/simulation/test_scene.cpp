@@ -191,6 +191,37 @@ TEST(Scene, CanBeEmptyAndFlat) {
   EXPECT_NEAR(hits.front().range, 625.0, 1e-9);
 }
 
+// Rays that meet grass end on a blade of up to 0.2 m (longest ones of 0.3 to 1 of it, met at all
+// heights); other ground is where it was.
+TEST(Scene, GrassIsMetAboveTheGround) {
+  SceneOptions options;
+  options.relief = options.buildings = options.trees = 0.0;
+  options.grass = 0.2;
+  const Scene scene({-100.0, -100.0}, {100.0, 100.0}, options, 1);
+  const Eigen::Vector3d direction = Eigen::Vector3d(0.3, 0.0, -1.0).normalized();
+  std::vector<SurfaceHit> hits;
+  double sum = 0.0, highest = 0.0;
+  int rays = 0;
+  for (double x = -99.0; x < 90.0; x += 1.3)
+    for (double y = -99.0; y < 99.0; y += 1.7) {
+      const Eigen::Vector3d origin = Eigen::Vector3d(x, y, 0.0) - 500.0 * direction;
+      ASSERT_TRUE(scene.trace(origin, direction, hits));
+      const double height = (origin + hits.front().range * direction).z();
+      if (hits.front().cover != LandCover::grass) {
+        EXPECT_NEAR(height, 0.0, 1e-9);
+        continue;
+      }
+      ++rays;
+      EXPECT_GE(height, -1e-9);
+      sum += height;
+      highest = std::max(highest, height);
+    }
+  ASSERT_GT(rays, 1000);
+  EXPECT_GT(highest, 0.15);
+  EXPECT_LT(highest, 0.2);
+  EXPECT_NEAR(sum / rays, 0.5 * 0.65 * 0.2, 0.01);
+}
+
 TEST(Scene, SeedDecidesEverything) {
   const Scene again({-300.0, -250.0}, {300.0, 250.0}, SceneOptions(), 3);
   const Scene other({-300.0, -250.0}, {300.0, 250.0}, SceneOptions(), 4);

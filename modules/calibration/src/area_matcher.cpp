@@ -18,7 +18,7 @@
 
 namespace pcl_als {
 
-void AreaMatcher::add(int strip, const LidarReturn& point) {
+void AreaMatcher::add(int strip, const LidarReturn& point, float range_std) {
   if (!area_.covers(point.position) || !isSurfacePoint(point)) return;
   StripPart& part = surfaces_[static_cast<std::size_t>(strip)];
   part.biased.push_back(point.position);
@@ -28,6 +28,7 @@ void AreaMatcher::add(int strip, const LidarReturn& point) {
   part.scan_direction.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
   part.channel.push_back(point.channel);
   part.user_data.push_back(point.user_data);
+  part.range_std.push_back(range_std);
 }
 
 void AreaMatcher::put(int strip, ByteWriter& out) const {
@@ -35,6 +36,7 @@ void AreaMatcher::put(int strip, ByteWriter& out) const {
   out.putPlain(part.biased).put(part.times);
   out.put(std::vector<char>(part.single.begin(), part.single.end()));
   out.put(part.intensity).put(part.scan_direction).put(part.channel).put(part.user_data);
+  out.put(part.range_std);
 }
 
 void AreaMatcher::get(int strip, ByteReader& in) {
@@ -43,6 +45,7 @@ void AreaMatcher::get(int strip, ByteReader& in) {
   const auto single = in.take<std::vector<char>>();
   part.single.assign(single.begin(), single.end());
   in.get(part.intensity).get(part.scan_direction).get(part.channel).get(part.user_data);
+  in.get(part.range_std);
 }
 
 void AreaMatcher::clear() {
@@ -274,6 +277,7 @@ void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
   observation.variance =
       static_cast<float>(normalVariance(point.covariance + foot.covariance, normal));
   observation.pointing = static_cast<float>(normalVariance(point.pointing + foot.pointing, normal));
+  observation.echo = static_cast<float>(point.echoAlong(normal) + foot.echoAlong(normal));
   observation.sources = (point.sourcesAlong(normal) - foot.sourcesAlong(normal)).cast<float>();
   observation.misclosure =
       normal.dot(point.position - foot.position) +

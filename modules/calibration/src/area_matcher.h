@@ -52,7 +52,9 @@ class AreaMatcher {
     clear();
   }
 
-  void add(int strip, const LidarReturn& point);
+  /// \a range_std: standard deviation of its range that a decomposed echo states, in addition to
+  /// the noise model, metres; 0: none.
+  void add(int strip, const LidarReturn& point, float range_std = 0.0F);
   /// The points of a strip stay where they are. \a std: of their coordinates, metres; \a flown:
   /// their times are those of the trajectory.
   void hold(int strip, double std, bool flown) {
@@ -199,6 +201,7 @@ class AreaMatcher {
     std::vector<float> intensity;
     std::vector<std::int8_t> scan_direction;  ///< of the mirror: 1 to the left, -1 to the right
     std::vector<std::uint8_t> channel, user_data;
+    std::vector<float> range_std;  ///< metres, of the echo
     PatchSurface surface;
     GroundPlanes ground;  ///< of the points as corrected last
     std::vector<std::int32_t> candidates;
@@ -210,6 +213,11 @@ class AreaMatcher {
     Eigen::Vector3d rounding = Eigen::Vector3d::Zero();
 
     bool held() const { return held_std > 0.0; }
+    /// Variance of the range of a point's echo, m^2.
+    double echoVariance(std::size_t i) const {
+      const auto std = static_cast<double>(range_std[i]);
+      return std * std;
+    }
     /// By point; 0 for scan directions that are recorded or unknown.
     std::vector<int> values(PointField field, const Trajectory& trajectory) const;
     void add(const StripPart& other, std::size_t point);  ///< a point of another part

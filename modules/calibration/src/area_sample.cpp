@@ -61,13 +61,20 @@ AreaMatcher& AreaSample::area(std::size_t index) {
   return matchers_[index];
 }
 
-void AreaSample::add(int strip, const LidarReturn* points, std::size_t count) {
+void AreaSample::add(int strip, const LidarReturn* points, std::size_t count,
+                     const double* range_std) {
   if (!block_.strips.used[static_cast<std::size_t>(strip)]) return;
-  for (const LidarReturn* p = points; p != points + count; ++p) {
-    if (!p->position.allFinite() || !std::isfinite(p->time)) continue;
-    for (const int area : index_.candidates(p->position))
-      matchers_[static_cast<std::size_t>(area)].add(strip, *p);
+  std::size_t with_std = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const LidarReturn& point = points[i];
+    if (!point.position.allFinite() || !std::isfinite(point.time)) continue;
+    const bool known = range_std != nullptr && std::isfinite(range_std[i]) && range_std[i] > 0.0;
+    const float std = known ? static_cast<float>(range_std[i]) : 0.0F;
+    const std::vector<int>& areas = index_.candidates(point.position);
+    with_std += known && !areas.empty() ? 1 : 0;
+    for (const int area : areas) matchers_[static_cast<std::size_t>(area)].add(strip, point, std);
   }
+  with_range_std_ += with_std;
 }
 
 std::size_t AreaSample::pointCount() const {

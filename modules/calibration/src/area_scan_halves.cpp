@@ -48,6 +48,7 @@ void AreaMatcher::StripPart::add(const StripPart& other, std::size_t i) {
   scan_direction.push_back(other.scan_direction[i]);
   channel.push_back(other.channel[i]);
   user_data.push_back(other.user_data[i]);
+  range_std.push_back(other.range_std[i]);
 }
 
 void AreaMatcher::evenOut() {

@@ -77,7 +77,7 @@ double meanSpeed(const SurveyBlock& block) {
 /// The noise of points and the sizes of the trajectory errors, as estimated.
 ErrorLevels errorLevels(const NoiseModel& noise, const BlockSolution& solution) {
   const double scale = solution.weights.meanScale();
-  const double pointing = scale * std::sqrt(solution.weights.pointingFactor());
+  const double pointing = scale * std::sqrt(solution.weights.factors().pointing);
   const auto trajectory = solution.adjustment.errors().variances(solution.adjustment.levels());
   ErrorLevels levels;
   levels.range = scale * noise.range;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -47,11 +48,15 @@ class AreaSample {
   AreaSample& operator=(const AreaSample&) = delete;
 
   /// Points of a strip, ground frame; those outside the areas are ignored.
-  void add(int strip, const LidarReturn* points, std::size_t count);
+  /// \a range_std: by point, as of AreaMatcher::add(), NaN: none; null: none of any point.
+  void add(int strip, const LidarReturn* points, std::size_t count,
+           const double* range_std = nullptr);
   /// Collective: gives each process the points of its share of the areas. \a strips: which process
   /// added which strips.
   void distribute(Communicator* processes, const SharedItems& strips);
   std::size_t pointCount() const;  ///< of all processes
+  /// Points with a standard deviation of their range that were added in this process.
+  std::size_t pointsWithRangeStd() const { return with_range_std_; }
 
   /// Builds the TINs and chooses the points for which patches are searched. Returns warnings on
   /// rounded coordinates.
@@ -97,6 +102,7 @@ class AreaSample {
   Communicator* processes_ = nullptr;
   SharedItems shares_;             ///< which processes form the pairs of an area
   std::size_t loaded_points_ = 0;  ///< of all processes
+  std::atomic<std::size_t> with_range_std_{0};
 };
 
 /// Times at which each strip was measured in the areas, a span for every crossing. Collective.

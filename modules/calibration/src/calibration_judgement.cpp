@@ -18,6 +18,8 @@ constexpr double kSignificant = 2.0;  // standard deviations of the change of th
 constexpr double kRelevant = 0.01;
 
 constexpr double kContradicting = 5.0;  // standard deviations of a bias that changes no misfit
+/// Mountings are known to a fraction of this angle.
+constexpr double kLargestMisalignment = 1800.0 * kRadiansPerArcsec;
 
 std::string centimetres(double metres) {
   char text[32];
@@ -105,6 +107,28 @@ void warnOfIneffectiveBiases(CalibrationResult& result) {
        Hint::strips});
 }
 
+/// A boresight angle beyond all mountings is another convention of the attitude, to which the
+/// calibration fits the points of this block alone.
+void warnOfLargeAngles(CalibrationResult& result) {
+  for (const SystemParameter p : {SystemParameter::boresight_pitch, SystemParameter::boresight_roll,
+                                  SystemParameter::boresight_heading}) {
+    const double angle = result[p].bias;
+    if (result[p].status != ParameterStatus::estimated || std::abs(angle) < kLargestMisalignment)
+      continue;
+    char value[32];
+    std::snprintf(value, sizeof value, "%.2f", angle / (3600.0 * kRadiansPerArcsec));
+    const char* cause =
+        p == SystemParameter::boresight_heading
+            ? "the headings of the trajectory may count from true north and the coordinates from "
+              "grid north, or be the direction of flight"
+            : "the trajectory may lack the nominal angles of the mounting, or have other axes";
+    result.warnings.push_back({std::string(infoOf(p).name) + " is " + value +
+                                   " degrees, more than a misalignment of the mounting: " + cause +
+                                   "; such a value does not apply to other surveys",
+                               p == SystemParameter::boresight_heading ? Hint::none : Hint::axes});
+  }
+}
+
 /// "-88 +- 106 arcsec"
 std::string valueText(SystemParameter p, const ParameterEstimate& estimate) {
   return shortValue(p, estimate.bias) + " +- " + inUnit(p, estimate.std);
@@ -166,6 +190,7 @@ bool biasesAreSignificant(const CalibrationResult& result) {
 void judgeCalibration(const std::vector<SystemParameter>& requested,
                       const std::string& not_converged, CalibrationResult& result) {
   judgeDetermination(requested, result);
+  warnOfLargeAngles(result);
   if (!not_converged.empty()) {
     result.verdict.downgrade(CalibrationStatus::not_converged, not_converged);
   }

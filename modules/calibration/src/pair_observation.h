@@ -74,6 +74,7 @@ struct PairObservation {
   float offset = 0.0F;
   float variance = 0.0F;  ///< n' Sigma n of the discrepancy, m^2
   float pointing = 0.0F;  ///< part of it due to pointing and footprint, m^2
+  float echo = 0.0F;      ///< part of it that each echo states of its range, m^2
   /// Sum of the absolute covariances with all pairs of the area (itself included) over the
   /// variance: a point may form pairs in several strips and be a vertex of several patches, see
   /// NoiseShares.

@@ -3,7 +3,6 @@
 #include "pair_weights.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,22 +11,6 @@
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als {
-
-struct PairWeights::Values {
-  std::vector<double> residual, variance, pointing;
-
-  void add(double of_residual, double of_variance, double of_pointing) {
-    residual.push_back(of_residual);
-    variance.push_back(of_variance);
-    pointing.push_back(of_pointing);
-  }
-  Values thinned(std::size_t every) const {
-    Values kept;
-    for (std::size_t i = 0; i < residual.size(); i += every)
-      kept.add(residual[i], variance[i], pointing[i]);
-    return kept;
-  }
-};
 
 namespace {
 
@@ -41,35 +24,45 @@ bool isOfPlan(const PairWeights::Group& group) {
   return group.first == PairObservation::kControl && group.second == group.first - kPlan;
 }
 
-double varianceWith(double pointing_factor, double variance, double pointing) {
-  return variance + (pointing_factor - 1.0) * pointing;
+using Values = std::vector<PairResidual>;
+
+Values thinned(const Values& values, std::size_t every) {
+  Values kept;
+  for (std::size_t i = 0; i < values.size(); i += every) kept.push_back(values[i]);
+  return kept;
 }
 
 /// Robust standard deviation of residuals with an expected mean of zero, over that of the noise
 /// model; a mean different from zero counts as scatter.
-template <typename Values>
-double scatterOf(const Values& values, double pointing_factor) {
-  if (values.residual.size() < kEnoughForScale) return 1.0;
-  std::vector<double> standardised(values.residual.size());
-  for (std::size_t i = 0; i < standardised.size(); ++i) {
-    standardised[i] =
-        values.residual[i] /
-        std::sqrt(varianceWith(pointing_factor, values.variance[i], values.pointing[i]));
-  }
+double scatterOf(const Values& values, const VarianceParts& factors) {
+  if (values.size() < kEnoughForScale) return 1.0;
+  std::vector<double> standardised;
+  standardised.reserve(values.size());
+  for (const PairResidual& pair : values)
+    standardised.push_back(pair.residual / std::sqrt(factors.variance(pair)));
   return std::max(robustSigmaAboutZero(std::move(standardised)), kLeastScale);
 }
 
 /// -ln of the likelihood of a group's residuals under Huber's least favourable distribution.
-template <typename Values>
-double unlikeliness(const Values& values, double pointing_factor) {
-  const double scale = scatterOf(values, pointing_factor);
+double unlikeliness(const Values& values, const VarianceParts& factors) {
+  const double scale = scatterOf(values, factors);
   double sum = 0.0;
-  for (std::size_t i = 0; i < values.residual.size(); ++i) {
-    const double variance =
-        scale * scale * varianceWith(pointing_factor, values.variance[i], values.pointing[i]);
-    sum += 0.5 * std::log(variance) + huberLoss(values.residual[i] / std::sqrt(variance));
+  for (const PairResidual& pair : values) {
+    const double variance = scale * scale * factors.variance(pair);
+    sum += 0.5 * std::log(variance) + huberLoss(pair.residual / std::sqrt(variance));
   }
   return sum;
+}
+
+/// The factors that are compared; those of echoes only where any pair has such a part.
+std::vector<VarianceParts> candidateFactors(bool with_echoes) {
+  std::vector<VarianceParts> factors;
+  for (const double echo : {1.0, 0.25, 4.0, 16.0, 64.0}) {
+    for (const double pointing : {1.0, 0.5, 0.25, 0.1, 0.02, 2.0, 4.0})
+      factors.push_back({pointing, echo});
+    if (!with_echoes) break;
+  }
+  return factors;
 }
 
 }  // namespace
@@ -79,22 +72,24 @@ PairResidual::Group PairResidual::groupOf(const PairObservation& o) {
   return {std::min(o.a, o.b), std::max(o.a, o.b)};
 }
 
-double PairWeights::mostLikelyPointing(const std::map<Group, Values>& groups, int threads) {
-  constexpr std::array<double, 7> kFactors{1.0, 0.5, 0.25, 0.1, 0.02, 2.0, 4.0};
+VarianceParts PairWeights::mostLikelyFactors(const std::map<Group, Values>& groups, int threads) {
   constexpr std::size_t kSampledResiduals =
       3000;  // residuals of a group, to choose between the factors
   std::vector<std::pair<Values, double>> samples;  // with the residuals that one represents
+  bool with_echoes = false;
   for (const auto& [group, values] : groups) {
-    const std::size_t every = std::max<std::size_t>(1, values.residual.size() / kSampledResiduals);
-    samples.emplace_back(values.thinned(every), static_cast<double>(every));
+    const std::size_t every = std::max<std::size_t>(1, values.size() / kSampledResiduals);
+    samples.emplace_back(thinned(values, every), static_cast<double>(every));
+    for (const PairResidual& pair : values) with_echoes = with_echoes || pair.echo > 0.0;
   }
-  std::array<double, kFactors.size()> costs{};
-  parallelFor(kFactors.size(), threads, [&](std::size_t i) {
+  const std::vector<VarianceParts> factors = candidateFactors(with_echoes);
+  std::vector<double> costs(factors.size(), 0.0);
+  parallelFor(factors.size(), threads, [&](std::size_t i) {
     for (const auto& [values, represented] : samples)
-      costs[i] += represented * unlikeliness(values, kFactors[i]);
+      costs[i] += represented * unlikeliness(values, factors[i]);
   });
-  return kFactors[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) -
-                                           costs.begin())];
+  return factors[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) -
+                                          costs.begin())];
 }
 
 void PairWeights::findScales(const Residuals& residuals, int threads) {
@@ -104,15 +99,15 @@ void PairWeights::findScales(const Residuals& residuals, int threads) {
     for (const PairResidual& pair : area) {
       if (current == groups.end() || current->first != pair.group)
         current = groups.try_emplace(pair.group).first;
-      current->second.add(pair.residual, pair.variance, pair.pointing);
+      current->second.push_back(pair);
     }
   }
-  pointing_ = mostLikelyPointing(groups, threads);
+  factors_ = mostLikelyFactors(groups, threads);
   std::vector<std::pair<const Values*, double*>> scales;
   scales.reserve(groups.size());
   for (const auto& [group, values] : groups) scales.emplace_back(&values, &scales_[group]);
   parallelFor(scales.size(), threads,
-              [&](std::size_t i) { *scales[i].second = scatterOf(*scales[i].first, pointing_); });
+              [&](std::size_t i) { *scales[i].second = scatterOf(*scales[i].first, factors_); });
   // Places of targets are few, and unknowns of the strips fit them: their residuals are no evidence
   // of a smaller variance.
   for (const auto& [group, values] : groups)
@@ -128,7 +123,7 @@ PairWeights::Kept PairWeights::weigh(const std::vector<PairResidual>& residuals,
   for (const PairResidual& pair : residuals) {
     if (found == scales_.end() || found->first != pair.group) found = scales_.find(pair.group);
     const double scale = found == scales_.end() ? 1.0 : found->second;
-    const double variance = scale * scale * varianceWith(pointing_, pair.variance, pair.pointing);
+    const double variance = scale * scale * factors_.variance(pair);
     const double robust = weight(pair.residual / std::sqrt(variance));
     weights.push_back(robust * pair.variance / (variance * pair.variance_inflation));
     if (robust == 0.0) continue;

@@ -24,7 +24,7 @@ class AreaMatcher::PointGeometry {
   bool atPoint(const StripPart& part, std::int32_t index, const PatchQuality& surface) {
     const auto i = static_cast<std::size_t>(index);
     return at(part, {part.times[i], part.intensity[i], static_cast<float>(part.scan_direction[i])},
-              part.surface.tin().points()[i], surface);
+              part.surface.tin().points()[i], part.echoVariance(i), surface);
   }
 
   /// The foot of a point in a patch. \param vertex gets the covariances of one point of the strip
@@ -37,6 +37,7 @@ class AreaMatcher::PointGeometry {
     // All quantities are linear in position and time within a patch.
     SourceReading mean{0.0, 0.0F, 0.0F};
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();
+    double echoes = 0.0;         // variance of the interpolated range, m^2
     double log_intensity = 0.0;  // to which the effect of the intensity is proportional
     for (int i = 0; i < 3; ++i) {
       const auto v = static_cast<std::size_t>(triangle[i]);
@@ -47,14 +48,17 @@ class AreaMatcher::PointGeometry {
       if (scale_ != nullptr)
         log_intensity += weight * SourceEffect::logIntensity(part.intensity[v], *scale_);
       foot += weight * part.surface.tin().points()[v];
+      echoes += weight * weight * part.echoVariance(v);
     }
     if (scale_ != nullptr)
       mean.intensity = static_cast<float>(scale_->median_intensity * std::exp(log_intensity));
-    if (!at(part, mean, foot, surface)) return false;
+    const double squares = match.weights.squaredNorm();
+    if (!at(part, mean, foot, echoes / squares, surface)) return false;
     vertex.covariance = covariance;
     vertex.pointing = pointing;
-    covariance *= match.weights.squaredNorm();
-    pointing *= match.weights.squaredNorm();
+    covariance *= squares;
+    pointing *= squares;
+    echo = echoes;
     return true;
   }
 
@@ -62,9 +66,10 @@ class AreaMatcher::PointGeometry {
   double time = 0.0;
   Eigen::Vector3d position;  ///< corrected
   DesignBlock design;
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();   ///< of the boresight angles, where held
-  SourceEffects sources;                            ///< except slope_ranging
-  Eigen::Matrix3d covariance, pointing;             ///< pointing: its part of the covariance
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();  ///< of the boresight angles, where held
+  SourceEffects sources;                           ///< except slope_ranging
+  Eigen::Matrix3d covariance, pointing;            ///< pointing: its part of the covariance
+  double echo = 0.0;  ///< variance of the range that echoes state: its part of the covariance, m^2
   Eigen::Vector3d beam;                             ///< unit, downward
   double range = 0.0, lateral = 0.0, height = 0.0;  ///< metres
 
@@ -81,6 +86,12 @@ class AreaMatcher::PointGeometry {
     return design.middleCols<3>(indexOf(SystemParameter::boresight_pitch)) + turn;
   }
 
+  /// Part of the variance along the normal of a surface that echoes state, m^2.
+  double echoAlong(const Eigen::Vector3d& normal) const {
+    const double cosine = normal.dot(beam);
+    return echo * cosine * cosine;
+  }
+
   /// Effects of the error sources along the normal of a surface, metres.
   ErrorSourceRow sourcesAlong(const Eigen::Vector3d& normal) const {
     ErrorSourceRow row = normal.transpose() * sources;
@@ -91,7 +102,7 @@ class AreaMatcher::PointGeometry {
 
  private:
   bool at(const StripPart& part, const SourceReading& reading, const Eigen::Vector3d& place,
-          const PatchQuality& surface) {
+          double echo_variance, const PatchQuality& surface) {
     time = reading.time;
     position = place;
     held = part.held();
@@ -105,6 +116,8 @@ class AreaMatcher::PointGeometry {
     covariance.diagonal() += part.rounding;
     pointing = noise_.pointingCovariance(geometry);
     beam = geometry.beam();
+    echo = echo_variance;
+    if (echo > 0.0) covariance += echo * beam * beam.transpose();
     range = geometry.range();
     lateral = std::abs(geometry.x);
     height = std::abs(geometry.z);
@@ -124,6 +137,7 @@ class AreaMatcher::PointGeometry {
     sources.setZero();
     covariance.setZero();
     pointing.setZero();
+    echo = 0.0;
     for (int i = 0; i < 3; ++i) {
       if (!vertex.atPoint(part, part.surface.tin().triangles()[match.triangle].vertex[i], surface))
         return false;
@@ -136,6 +150,7 @@ class AreaMatcher::PointGeometry {
       sources += weight * vertex.sources;
       covariance += weight * weight * vertex.covariance;
       pointing += weight * weight * vertex.pointing;
+      echo += weight * weight * vertex.echo;
     }
     mixed = true;
     held = vertex.held;
@@ -155,6 +170,7 @@ class AreaMatcher::PointGeometry {
       turn = designBlock(geometry).middleCols<3>(indexOf(SystemParameter::boresight_pitch));
     }
     pointing.setZero();
+    echo = 0.0;
     beam = -Eigen::Vector3d::UnitZ();
     range = lateral = height = 0.0;
     return true;

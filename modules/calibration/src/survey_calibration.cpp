@@ -153,12 +153,22 @@ IndexedBlock indexed(const SurveyReader& survey, const std::shared_ptr<const Tra
 }
 
 /// Second pass over all points.
-void loadAreas(const SurveyReader& survey, const References& references, AreaSample& sample) {
-  const auto load = [&](int strip, const LidarReturn* points, std::size_t count) {
+void loadAreas(const SurveyReader& survey, const References& references, bool use_range_std,
+               AreaSample& sample) {
+  SurveyReader::Reading reading;
+  if (use_range_std) reading.extra_field = "range_std";
+  survey.read(
+      [&](const SurveyReader::Run& run) {
+        thread_local std::vector<LidarReturn> points;
+        run.points(points);
+        const std::vector<double>& stds = run.chunk.extra;
+        sample.add(run.strip, points.data(), points.size(),
+                   stds.empty() ? nullptr : &stds[run.from]);
+      },
+      reading);
+  references.read([&](int strip, const LidarReturn* points, std::size_t count) {
     sample.add(strip, points, count);
-  };
-  survey.read(SurveyReader::asReturns(load));
-  references.read(load);
+  });
   sample.distribute(survey.processes(), survey.stripShares());
 }
 
@@ -188,8 +198,12 @@ SurveyCalibration calibrateBlock(const SurveyReader& survey,
   for (const std::string& text : block.flight.remarks) progress.remark(text);
   progress.begin("Reading the areas");
   AreaSample sample(block);
-  loadAreas(survey, references, sample);
+  loadAreas(survey, references, options.use_range_std, sample);
   progress.end(grouped(sample.pointCount()) + " points");
+  if (sample.pointsWithRangeStd() > 0)
+    progress.remark("a priori standard deviations of ranges: range_std of the echoes of " +
+                    grouped(sample.pointsWithRangeStd()) +
+                    " points, in addition to the common range noise");
   BlockCalibration calibration = adjusted(sample, progress);
   CalibrationResult& result = calibration.result;
   result.excluded.insert(result.excluded.end(), excluded.begin(), excluded.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -17,6 +18,10 @@ namespace {
 
 constexpr std::uint8_t kLowNoise = 7, kHighNoise = 18;
 
+/// Bands that are interpolated as the surface is, in the order of its samples.
+constexpr std::array<const char*, 4> kFilledBands{"intensity", "echoes_per_pulse", "height_std",
+                                                  "echo_width"};
+
 void checkLength(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
   throw UsageError(std::string(name) + " " + std::to_string(value) + " m: must be between " +
@@ -30,6 +35,21 @@ struct Cell {
   double intensity = 0.0;
   double ground_z = 0.0, ground_x = 0.0, ground_y = 0.0;  ///< sums
   std::uint32_t firsts = 0, lasts = 0, grounds = 0, multiples = 0;
+  std::uint32_t returns = 0, echoes = 0, widths = 0;  ///< echoes: of the pulses of the firsts
+  float mean_z = 0.0F, squares_z = 0.0F;  ///< of all returns; squares of distances from the mean
+  float width = 0.0F;                     ///< sum
+
+  void addHeight(float z) {
+    const float distance = z - mean_z;
+    mean_z += distance / static_cast<float>(++returns);
+    squares_z += distance * (z - mean_z);
+  }
+  float meanWidth() const {
+    return widths > 0 ? width / static_cast<float>(widths) : RasterBand::kNoValue;
+  }
+  float heightStd() const {
+    return returns > 0 ? std::sqrt(squares_z / static_cast<float>(returns)) : 0.0F;
+  }
 };
 
 }  // namespace
@@ -102,7 +122,7 @@ struct SurfaceAccumulator::State {
 
 detail::CellSamples SurfaceAccumulator::State::surfaceSamples() const {
   detail::CellSamples samples;
-  samples.values.resize(2);
+  samples.values.resize(kFilledBands.size() + 1);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& cell = cells[i];
     if (cell.firsts == 0) continue;
@@ -110,6 +130,9 @@ detail::CellSamples SurfaceAccumulator::State::surfaceSamples() const {
     samples.place.push_back(place(i, cell.top_x, cell.top_y));
     samples.values[0].push_back(cell.top_z);
     samples.values[1].push_back(static_cast<float>(cell.intensity / cell.firsts));
+    samples.values[2].push_back(static_cast<float>(cell.echoes) / static_cast<float>(cell.firsts));
+    samples.values[3].push_back(cell.heightStd());
+    samples.values[4].push_back(cell.meanWidth());
   }
   return samples;
 }
@@ -179,7 +202,8 @@ void SurfaceAccumulator::State::addStatistics(Raster& raster) const {
 const std::vector<std::string>& SurfaceAccumulator::bandNames() {
   static const std::vector<std::string> names{"surface",          "terrain",      "height",
                                               "intensity",        "slope",        "roughness",
-                                              "multiple_returns", "height_range", "density"};
+                                              "multiple_returns", "height_range", "density",
+                                              "echoes_per_pulse", "height_std",   "echo_width"};
   return names;
 }
 
@@ -203,6 +227,7 @@ bool SurfaceAccumulator::add(const SurfaceReturn& point) {
   if (point.return_number <= 1) {
     if (cell.firsts == 0 || z > cell.top_z) cell.top_z = z, cell.top_x = x, cell.top_y = y;
     ++cell.firsts;
+    cell.echoes += std::max<std::uint32_t>(1, point.number_of_returns);
     cell.multiples += point.number_of_returns > 1;
     cell.intensity += static_cast<double>(point.intensity);
   }
@@ -210,6 +235,8 @@ bool SurfaceAccumulator::add(const SurfaceReturn& point) {
     if (cell.lasts == 0 || z < cell.low_z) cell.low_z = z, cell.low_x = x, cell.low_y = y;
     ++cell.lasts;
   }
+  cell.addHeight(z);
+  if (!std::isnan(point.echo_width)) cell.width += point.echo_width, ++cell.widths;
   if (s.ground_class[point.classification]) {
     ++cell.grounds;
     cell.ground_x += x, cell.ground_y += y, cell.ground_z += z;
@@ -237,10 +264,12 @@ SurfaceResult SurfaceAccumulator::compute() const {
   raster.bands.push_back({"surface", std::move(surface.bands[0])});
   raster.bands.push_back({"terrain", std::move(terrain.bands[0])});
   raster.bands.push_back({"height", std::move(height)});
-  raster.bands.push_back({"intensity", std::move(surface.bands[1])});
+  raster.bands.push_back({kFilledBands[0], std::move(surface.bands[1])});
   raster.bands.push_back({"slope", std::move(slope)});
   raster.bands.push_back({"roughness", std::move(roughness)});
   s.addStatistics(raster);
+  for (std::size_t i = 1; i < kFilledBands.size(); ++i)
+    raster.bands.push_back({kFilledBands[i], std::move(surface.bands[i + 1])});
   result.surface_source = std::move(surface.source);
   result.terrain_source = std::move(terrain.source);
   return result;

@@ -126,6 +126,11 @@ void LandCover::makeRasters() {
                      Hint::extent);
   }
   if (result_.rasters.terrain.measured == 0) requireTerrain();
+  if (result_.rasters.echo_widths == 0 && !options_.map.empty() && holds(bands_, "echo_width")) {
+    throw InputError(files_.paths.front().string() +
+                     ": no point has the extra bytes echo_width, from which the band echo_width is "
+                     "made; decompose the waveforms by pcl_als_waveform, or leave the band out");
+  }
   doTogether(processes, [&] {
     if (writer) writer->commit();
   });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <mutex>
 
@@ -20,7 +21,7 @@ namespace pcl_als {
 namespace {
 
 /// at most, of a tile that is processed, see SurfaceAccumulator
-constexpr double kBytesPerCell = 380.0;
+constexpr double kBytesPerCell = 440.0;
 
 /// Of the bands of one round of tiles that the first of several processes receives, unless there
 /// are more threads.
@@ -71,6 +72,7 @@ class TileWork {
   void read(const SurveyReader& survey, const std::vector<BoxedFile>& files) {
     SurveyReader::Reading reading;
     reading.threads = 1;
+    reading.extra_field = "echo_width";
     for (const BoxedFile& file : files)
       if (file.meets(tile_.padded)) reading.files.push_back(file.place);
     if (reading.files.empty()) return;
@@ -106,14 +108,20 @@ class TileWork {
 
   void add(const PointChunk& chunk, std::size_t i) {
     if ((chunk.flags[i] & kWithheld) != 0) return;
-    const bool used = accumulator_.add({chunk.x[i], chunk.y[i], chunk.z[i], chunk.intensity[i],
-                                        chunk.return_number[i], chunk.number_of_returns[i],
-                                        chunk.classification[i]});
-    if (!used) return;
+    SurfaceReturn point{chunk.x[i],
+                        chunk.y[i],
+                        chunk.z[i],
+                        chunk.intensity[i],
+                        chunk.return_number[i],
+                        chunk.number_of_returns[i],
+                        chunk.classification[i]};
+    if (!chunk.extra.empty()) point.echo_width = static_cast<float>(chunk.extra[i]);
+    if (!accumulator_.add(point)) return;
     const long long column = tile_.padded.columnOf(chunk.x[i]) - tile_.margin,
                     row = tile_.padded.rowOf(chunk.y[i]) - tile_.margin;
-    if (column >= 0 && column < tile_.window.columns && row >= 0 && row < tile_.window.rows)
-      ++counts_.points;
+    if (column < 0 || column >= tile_.window.columns || row < 0 || row >= tile_.window.rows) return;
+    ++counts_.points;
+    counts_.echo_widths += std::isnan(point.echo_width) ? 0 : 1;
   }
 
   const RasterTile& tile_;

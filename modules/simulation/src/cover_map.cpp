@@ -44,14 +44,20 @@ LandCover parcelCoverAt(const Eigen::Vector2d& place, std::uint64_t seed) {
   return cover;
 }
 
+std::uint64_t latticeIndex(double floored) {
+  return static_cast<std::uint64_t>(static_cast<std::int64_t>(floored));
+}
+
+/// A random value in [0, 1) of a lattice point.
+double latticeValue(std::uint64_t column, std::uint64_t row, std::uint64_t seed) {
+  return unitOf(mixBits(seed + column * 0x9E3779B97F4A7C15ULL + row * 0xC2B2AE3D27D4EB4FULL));
+}
+
 /// Smooth noise in [-1, 1] with one random value per lattice point.
 double latticeNoise(double x, double y, std::uint64_t seed) {
   const double column = std::floor(x), row = std::floor(y);
-  const auto i = static_cast<std::uint64_t>(static_cast<std::int64_t>(column));
-  const auto j = static_cast<std::uint64_t>(static_cast<std::int64_t>(row));
-  const auto value = [seed](std::uint64_t a, std::uint64_t b) {
-    return unitOf(mixBits(seed + a * 0x9E3779B97F4A7C15ULL + b * 0xC2B2AE3D27D4EB4FULL));
-  };
+  const std::uint64_t i = latticeIndex(column), j = latticeIndex(row);
+  const auto value = [seed](std::uint64_t a, std::uint64_t b) { return latticeValue(a, b, seed); };
   const double u = x - column, v = y - row;
   const double p = u * u * (3.0 - 2.0 * u), q = v * v * (3.0 - 2.0 * v);
   const double lower = value(i, j) * (1.0 - p) + value(i + 1, j) * p;
@@ -144,6 +150,15 @@ double textureAt(double x, double y, std::uint64_t seed) {
   return 1.0 + 0.10 * latticeNoise(x / 40.0, y / 40.0, seed) +
          0.08 * latticeNoise(x / 3.0, y / 3.0, seed + 1) +
          0.10 * latticeNoise(x / 0.7, y / 0.7, seed + 2);
+}
+
+double grassHeightAt(double x, double y, std::uint64_t seed) {
+  constexpr double kBlades = 0.02, kMeadow = 25.0, kShortest = 0.3;  // metres, metres, 1
+  const double longest =
+      kShortest +
+      (1.0 - kShortest) * (0.5 + 0.5 * latticeNoise(x / kMeadow, y / kMeadow, seed + 3));
+  return longest * latticeValue(latticeIndex(std::floor(x / kBlades)),
+                                latticeIndex(std::floor(y / kBlades)), seed + 4);
 }
 
 }  // namespace pcl_als::simulation

@@ -50,6 +50,7 @@ struct Scene::State {
       : minimum(lower),
         maximum(upper),
         seed(scene_seed),
+        grass(options.grass),
         terrain(lower, upper, options.relief, scene_seed, options.mountains),
         cover(lower, upper, scene_seed),
         targets(std::move(placed)) {
@@ -87,6 +88,7 @@ struct Scene::State {
 
   Eigen::Vector2d minimum, maximum;
   std::uint64_t seed;
+  double grass;  ///< metres, largest height
   Terrain terrain;
   CoverMap cover;
   std::vector<Building> buildings;
@@ -176,6 +178,8 @@ void Scene::State::describe(const Eigen::Vector3d& origin, const Eigen::Vector3d
     hit.cover = cover.at(point.x(), point.y());
     hit.reflectance =
         static_cast<float>(baseReflectance(hit.cover) * textureAt(point.x(), point.y(), seed));
+    if (grass > 0.0 && hit.cover == LandCover::grass)
+      hit.range += grass * grassHeightAt(point.x(), point.y(), seed) / direction.z();
   } else if (hit.object < polygons.size()) {
     const Eigen::Vector3d& normal = polygons[hit.object].normal();
     hit.normal = normal.dot(direction) < 0.0 ? normal : Eigen::Vector3d(-normal);

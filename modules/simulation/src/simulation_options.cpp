@@ -168,6 +168,7 @@ void SimulationOptions::check() const {
   require(scene.high_rises, 0.0, 1.0, "share of high-rises");
   require(scene.buildings, 0.0, 2.0, "buildings factor");
   require(scene.trees, 0.0, 4.0, "trees factor");
+  require(scene.grass, 0.0, 1.0, "height of grass");
   if (waveform) waveform->check();
   if (lines.empty()) throw UsageError("simulation: no flight line is planned");
   for (const PlannedLine& line : lines) checkLine(line);

@@ -56,6 +56,9 @@ struct CalibrationOptions {
   /// errors that the points have.
   std::vector<TrajectoryAccuracy> path_accuracy;
   bool keep_position = false, keep_roll_pitch = false, keep_heading = false;
+  /// Points of files with the extra bytes range_std (metres, of echoes of decomposed waveforms)
+  /// have this standard deviation of their ranges in addition to settings.noise.range.
+  bool use_range_std = true;
 };
 
 struct SurveyCalibration {

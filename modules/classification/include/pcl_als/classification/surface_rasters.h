@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,6 +41,8 @@ struct SurfaceReturn {
   double x = 0.0, y = 0.0, z = 0.0;
   float intensity = 0.0F;
   std::uint8_t return_number = 1, number_of_returns = 1, classification = 0;
+  /// Full width at half maximum of a decomposed echo, ns; NaN: not recorded.
+  float echo_width = std::numeric_limits<float>::quiet_NaN();
 };
 
 /// Source of the value of a cell.
@@ -65,13 +68,17 @@ struct CellCounts {
  * | multiple_returns | share of the pulses with more than one return, of the texture window |
  * | height_range | highest first minus lowest last return in the texture window, m |
  * | density | first returns per square metre |
+ * | echoes_per_pulse | mean number of returns of the pulses of the first returns |
+ * | height_std | standard deviation of the heights of all returns of the cell, m |
+ * | echo_width | mean full width at half maximum of the echoes of all returns that have one, ns |
  *
- * Cells without returns are interpolated (surface, intensity, terrain): linearly in the TIN of the
+ * Cells without returns are interpolated (surface, terrain, intensity, echoes_per_pulse,
+ * height_std, echo_width): linearly in the TIN of the
  * cells with returns, or by inverse squared distances from the nearest of them; cells further from
  * any return stay empty. Points of the classes 7 and 18 (noise) are excluded.
  *
  * A tile with SurfaceOptions::margin() cells around it has the values of the whole block. Memory:
- * 76 bytes per cell, in compute() up to 300 more; none per point.
+ * 96 bytes per cell, in compute() up to 340 more; none per point.
  * \code
  * SurfaceAccumulator tile(grid, options);
  * for (…) tile.add({x, y, z, intensity, return_number, number_of_returns, classification});

@@ -34,7 +34,7 @@ struct LandCoverOptions {
   int tile = 768;  ///< cells, side of the tiles that are processed
   int threads = 0;
   std::filesystem::path map;        ///< GeoTIFF of classes; empty: only rasters are made
-  std::filesystem::path grids;      ///< GeoTIFF of nine bands; empty: not kept
+  std::filesystem::path grids;      ///< GeoTIFF of all bands; empty: not kept
   std::filesystem::path posterior;  ///< GeoTIFF of probabilities; empty: none
   std::filesystem::path points;     ///< folder of point files with classes; empty: none
   BatchOptions batch;  ///< processes that share tiles and files; continuation for point files

@@ -45,11 +45,13 @@ RasterInput rasterInput(const std::vector<std::string>& paths, int threads = 0,
 void chooseStrips(const StripChoice& choice, RasterInput& files, int threads = 0);
 
 struct RasterCounts {
-  std::uint64_t points = 0;  ///< inside the raster, without noise
+  std::uint64_t points = 0;       ///< inside the raster, without noise
+  std::uint64_t echo_widths = 0;  ///< of these, with the width of a decomposed echo
   CellCounts surface, terrain;
 
   void add(const RasterCounts& other) {
     points += other.points;
+    echo_widths += other.echo_widths;
     surface.merge(other.surface);
     terrain.merge(other.terrain);
   }

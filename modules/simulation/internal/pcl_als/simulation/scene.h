@@ -57,7 +57,8 @@ struct Target {
  *
  * Local frame: metres east, north, up from SimulationOptions::origin. The terrain is a smooth
  * height field, roofs and walls are polygons, the crown of a tree is a cloud of semi-transparent
- * balls. All surfaces are exact: a hit lies on its surface to rounding.
+ * balls. All surfaces are exact: a hit lies on its surface to rounding. Grass
+ * (SceneOptions::grass) is met above the terrain, at the height of a blade.
  *
  * Memory: about 10 MB per square kilometre, most of it leaves and the cover map.
  */

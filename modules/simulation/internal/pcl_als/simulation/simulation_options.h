@@ -73,6 +73,7 @@ struct SceneOptions {
   double buildings = 1.0;   ///< factor on their number, 0: none; at most 2
   double high_rises = 0.0;  ///< share of the meshes of streets with blocks of 12 to 90 m in height
   double trees = 1.0;       ///< factor on their number, 0: none; at most 4
+  double grass = 0.0;       ///< metres: largest height of its blades, 0: level; at most 1
 };
 
 /** \brief All options of a simulation. Equal options give equal points for any number of threads.
