@@ -68,6 +68,7 @@ inline AreaOffsets areaOf(const std::vector<LidarReturn>& a, const std::vector<L
   for (const LidarReturn& point : a) area.add(0, point);
   for (const LidarReturn& point : b) area.add(1, point);
   area.build(limits, 0.001);
+  area.choosePlaces();
   return area;
 }
 

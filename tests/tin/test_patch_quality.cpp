@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/tin/orientation_classes.h>
 #include <pcl_als/tin/patch_surface.h>
 #include <pcl_als/tin/surface_criterion.h>
 
@@ -30,6 +32,22 @@ TEST(PatchQuality, TiltedPlaneByHand) {
   EXPECT_FALSE(q.on_hull);
   // All diagonals of a tied grid run one way: three rings of six around a triangle hold 12 points.
   EXPECT_EQ(q.vertices, 12);
+}
+
+TEST(OrientationClasses, AreSlopeStepsAndEighthsOfATurn) {
+  EXPECT_EQ(OrientationClasses::of(Vector3d::UnitZ()), 0U);
+  EXPECT_EQ(OrientationClasses::of(Vector3d(std::tan(0.08), 0.0, 1.0)), 0U);
+  const double slopes[] = {0.1, 0.4, 0.8};  // radians
+  for (std::size_t step = 0; step < 3; ++step) {
+    for (int degree = 0; degree < 360; ++degree) {
+      const double azimuth = degree * kRadiansPerDegree, rise = std::tan(slopes[step]);
+      // Eighths are counted from 0.1234 rad (7.07 degrees) before west, counter-clockwise.
+      const int aspect = static_cast<int>(std::fmod(degree + 180.0 + 7.0703, 360.0) / 45.0);
+      EXPECT_EQ(OrientationClasses::of({rise * std::cos(azimuth), rise * std::sin(azimuth), 1.0}),
+                1 + 8 * step + static_cast<std::size_t>(aspect))
+          << degree;
+    }
+  }
 }
 
 TEST(TypicalPlanEdge, IsTheMedianOfAGrid) {

@@ -61,15 +61,15 @@ ClusteredRegression::ClusteredRegression(int unknowns) : unknowns_(unknowns) {
   if (unknowns < 1 || unknowns > 6) throw UsageError("a regression has 1 to 6 unknowns");
 }
 
-void ClusteredRegression::add(std::int64_t cluster, const Eigen::VectorXd& row, double value) {
+void ClusteredRegression::add(std::int64_t cluster, const Row& row, double value) {
   if (row.size() != unknowns_) throw UsageError("a row has one entry for each unknown");
   rows_.insert(rows_.end(), row.data(), row.data() + unknowns_);
   values_.push_back(value);
   clusters_.push_back(cluster);
 }
 
-void ClusteredRegression::add(std::int64_t cluster, const Eigen::VectorXd& row, double value,
-                              const Eigen::Vector2d& place, const Eigen::VectorXd& effect) {
+void ClusteredRegression::add(std::int64_t cluster, const Row& row, double value,
+                              const Eigen::Vector2d& place, const Row& effect) {
   add(cluster, row, value);
   places_.push_back(place);
   effects_.push_back(effect);
@@ -80,8 +80,7 @@ void ClusteredRegression::raiseByCorrelation(const Eigen::VectorXd& weights,
   if (places_.size() != values_.size()) return;
   CorrelatedErrors errors(unknowns_, static_cast<int>(effects_.front().size()));
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    const Eigen::Map<const Eigen::VectorXd> row(rows_.data() + i * unknowns_, unknowns_);
-    errors.add(places_[i], row, effects_[i], weights[i], left[i]);
+    errors.add(places_[i], rowOf(i), effects_[i], weights[i], left[i]);
   }
   const CorrelatedErrors::Result shared = errors.solve();
   if (shared.determined) raiseTo(shared.covariance.diagonal(), result.covariance);
@@ -89,10 +88,7 @@ void ClusteredRegression::raiseByCorrelation(const Eigen::VectorXd& weights,
 
 Eigen::VectorXd ClusteredRegression::residuals(const Eigen::VectorXd& estimate) const {
   Eigen::VectorXd left(values_.size());
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    const Eigen::Map<const Eigen::VectorXd> row(rows_.data() + i * unknowns_, unknowns_);
-    left[i] = values_[i] - row.dot(estimate);
-  }
+  for (std::size_t i = 0; i < values_.size(); ++i) left[i] = values_[i] - rowOf(i).dot(estimate);
   return left;
 }
 
@@ -110,11 +106,13 @@ ClusteredRegression::Result ClusteredRegression::solve(bool robust) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns_);
     left = residuals(result.estimate);
     for (std::size_t i = 0; i < n; ++i) {
-      const Eigen::Map<const Eigen::VectorXd> row(rows_.data() + i * unknowns_, unknowns_);
-      normal += weights[i] * row * row.transpose();
-      right += weights[i] * left[i] * row;
+      const double* const row = &rows_[i * unknowns_];
+      for (int k = 0; k < unknowns_; ++k) {
+        for (int j = k; j < unknowns_; ++j) normal(j, k) += weights[i] * row[j] * row[k];
+        right[k] += weights[i] * left[i] * row[k];
+      }
     }
-    inverse = inverseOf(normal);
+    inverse = inverseOf(normal.selfadjointView<Eigen::Lower>());
     if (inverse.size() == 0) return std::optional<double>();
     const Eigen::VectorXd change = inverse * right;
     result.estimate += change;
@@ -123,11 +121,10 @@ ClusteredRegression::Result ClusteredRegression::solve(bool robust) const {
   });
   if (!fit.solved()) return result;
   const Eigen::VectorXd &weights = fit.weights, &left = fit.residuals;
-  std::map<std::int64_t, Eigen::VectorXd> scores;
+  std::map<std::int64_t, Row> scores;
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Map<const Eigen::VectorXd> row(rows_.data() + i * unknowns_, unknowns_);
-    const auto place = scores.try_emplace(clusters_[i], Eigen::VectorXd::Zero(unknowns_)).first;
-    place->second += weights[i] * left[i] * row;
+    const auto place = scores.try_emplace(clusters_[i], Row::Zero(unknowns_)).first;
+    place->second += weights[i] * left[i] * rowOf(i);
   }
   result.clusters = scores.size();
   result.rms = std::sqrt(left.squaredNorm() / static_cast<double>(n));

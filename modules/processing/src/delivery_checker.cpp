@@ -201,7 +201,6 @@ void DeliveryChecker::findRoughness() {
     AreaOffsets& area = offsets_[i];
     area.build(settings_.limits, survey_.resolution());
     found[i] = area.roughness();
-    area.release();
   });
   shareVectors(survey_.processes(), target_shares_, found);
   std::vector<double> all;
@@ -220,6 +219,7 @@ void DeliveryChecker::measureAreas() {
     AreaOffsets& area = offsets_[i];
     const Clock::time_point start = Clock::now();
     area.build(settings_.limits, survey_.resolution());
+    area.choosePlaces();
     const double building = millisecondsSince(start);
     for (std::size_t strip = 0; strip < courses_.size(); ++strip) {
       counts_[i][strip] = area.points(static_cast<int>(strip)).size();

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/quality/area_offsets.h>
@@ -51,8 +52,8 @@ std::size_t AreaOffsets::pointCount() const {
 
 void AreaOffsets::build(const SurfaceLimits& limits, double resolution) {
   limits_ = limits;
+  if (std::exchange(built_, true)) return;
   for (StripPart& part : strips_) {
-    part.places.clear();
     dropHighVegetation(part.points);
     if (part.points.size() < kTooFew) continue;
     std::vector<Eigen::Vector3d> positions;
@@ -60,11 +61,11 @@ void AreaOffsets::build(const SurfaceLimits& limits, double resolution) {
     for (const LidarReturn& point : part.points) positions.push_back(point.position);
     part.surface = PatchSurface(Tin(std::move(positions), resolution));
     part.median_edge = typicalPlanEdge(part.surface.tin());
-    choosePlaces(part);
   }
 }
 
 void AreaOffsets::release() {
+  built_ = false;
   for (StripPart& part : strips_) {
     part.surface = PatchSurface();
     part.places = {};
@@ -84,6 +85,10 @@ std::vector<std::int32_t> AreaOffsets::sampledTriangles(const StripPart& part,
     triangles.push_back(static_cast<std::int32_t>(t));
   }
   return thinned(triangles, count);
+}
+
+void AreaOffsets::choosePlaces() {
+  for (StripPart& part : strips_) choosePlaces(part);
 }
 
 void AreaOffsets::choosePlaces(StripPart& part) const {
@@ -136,14 +141,15 @@ std::vector<OffsetSample> AreaOffsets::offsets(int a, int b) const {
 void AreaOffsets::measure(const StripPart& from, const StripPart& to, double sign,
                           std::vector<OffsetSample>& found) const {
   if (from.surface.tin().triangles().empty() || to.surface.tin().triangles().empty()) return;
+  std::int32_t hint = Tin::kNone;
   for (const Place& place : from.places) {
     OffsetSample sample;
-    if (measureAt(from, place, to, sign, sample)) found.push_back(sample);
+    if (measureAt(from, place, to, sign, hint, sample)) found.push_back(sample);
   }
 }
 
 bool AreaOffsets::measureAt(const StripPart& from, const Place& place, const StripPart& to,
-                            double sign, OffsetSample& sample) const {
+                            double sign, std::int32_t& hint, OffsetSample& sample) const {
   const LidarReturn& point = from.points[place.point];
   sample.position = place.position;
   // Height of the surface of the strip above that of the other one around a patch.
@@ -163,7 +169,7 @@ bool AreaOffsets::measureAt(const StripPart& from, const Place& place, const Str
   const auto usable = [&](const PatchQuality& quality) {
     return limits_.isSatisfiedBy(quality, to.median_edge) && quality.plane_normal.z() >= kWall;
   };
-  const auto closest = to.surface.closest(place.position, limits_.maximum_distance);
+  const auto closest = to.surface.closest(place.position, limits_.maximum_distance, hint);
   PatchQuality quality;
   if (closest) {
     quality = to.surface.quality(closest->triangle);

@@ -33,13 +33,12 @@ class DirectedSearch {
         groups_(groups),
         noise_(noise) {}
 
-  void run(const Candidate* candidates, std::size_t count, std::size_t stride, SurfaceSide& patches,
+  void run(Candidate* candidates, std::size_t count, std::size_t stride, SurfaceSide& patches,
            PatchPairs& pairs) const {
-    std::int32_t hint = Tin::kNone;
     for (std::size_t i = 0; i < count; i += stride) {
-      const Candidate& candidate = candidates[i];
+      Candidate& candidate = candidates[i];
       const Vector3d moved = there_ * candidate.position;
-      const auto match = patches.surface().closest(moved, threshold_, hint);
+      const auto match = patches.surface().closest(moved, threshold_, candidate.under);
       PatchPlane plane;
       if (!match || !patches.planeOf(match->triangle, plane)) continue;
       PatchPair pair;
@@ -105,7 +104,7 @@ class DirectedSearch {
 
 /// The part of the search of one thread.
 struct Task {
-  const Candidate *first, *last;
+  Candidate *first, *last;
   SurfaceSide* patches;
   bool source_point;
   PatchPairs pairs;
@@ -114,13 +113,13 @@ struct Task {
 void addTasks(SurfaceSide& points, SurfaceSide& patches, bool source_point,
               std::vector<Task>& tasks) {
   if (points.empty() || patches.empty()) return;
-  const auto& candidates = points.candidates();
+  auto& candidates = points.candidates();
   // The suitability of patches is stored without locks: a fine area is one task; a coarse one
   // stores none.
   const std::size_t step =
       patches.isCoarse() ? kChunk : std::max<std::size_t>(1, candidates.size());
   for (std::size_t i = 0; i < candidates.size(); i += step) {
-    const Candidate* first = candidates.data() + i;
+    Candidate* const first = candidates.data() + i;
     tasks.push_back(
         {first, first + std::min(step, candidates.size() - i), &patches, source_point, {}});
   }

@@ -104,14 +104,19 @@ ScatterBySlope PatchAdjustment::scatter(const Unknowns& unknowns) const {
   for (std::size_t i = 0; i < rests.size(); ++i)
     steps[ScatterBySlope::stepOf(pairs_[i])].push_back(rests[i]);
   ScatterBySlope result;
-  const double all = std::max(robustSigma(std::move(rests)), kLeastScatter);
   for (int i = 0; i < ScatterBySlope::kSteps; ++i) {
     result.pairs[i] = steps[i].size();
+    if (result.pairs[i] == 0) continue;
     // About zero and not about the median, so that a class with an offset has a larger scatter.
-    result.sigma[i] = result.pairs[i] < kFewestInStep
-                          ? all
-                          : std::max(robustSigmaAboutZero(std::move(steps[i])), kLeastScatter);
+    result.sigma[i] =
+        std::max(result.pairs[i] < kFewestInStep ? robustSigma(rests)
+                                                 : robustSigmaAboutZero(std::move(steps[i])),
+                 kLeastScatter);
   }
+  // Where the scatter is held, pairs of such a class may be formed later.
+  const double largest = result.largest();
+  for (int i = 0; i < ScatterBySlope::kSteps; ++i)
+    if (result.pairs[i] == 0) result.sigma[i] = largest;
   return result;
 }
 

@@ -40,6 +40,13 @@ constexpr std::size_t kSecondEstimatePairs = 25'000;
 const double kTwoValues = studentCritical(0.025, 2.0) / normalCritical(0.025) / std::sqrt(2.0);
 constexpr double kThresholdChange = 1e-3;  // metres: below, the threshold is no longer changed
 
+void exchangeChoices(std::vector<AreaSurfaces>& areas) {
+  for (AreaSurfaces& area : areas) {
+    area.source.exchangeChoice();
+    area.target.exchangeChoice();
+  }
+}
+
 /// One alignment, step by step; the working coordinates are the target's about a reference point.
 class Alignment {
  public:
@@ -77,6 +84,7 @@ class Alignment {
   Weighting weighting_;  ///< frozen, as the threshold is, when the updates no longer decrease
   SurfaceCriterion criterion_ = surfaceCriterion();
   PatchPairs pairs_;
+  bool second_chosen_ = false;  ///< the candidates of the second estimate
   PatchAlignmentResult result_;
 };
 
@@ -163,7 +171,10 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
   all.roughness = 20.0 * criterion_.plain_roughness;
   all.edge_factor = 8.0;
   all.slope = 1.45;
-  chooseCandidates(areas, all, std::min(settings_.pairs, kSecondEstimatePairs));
+  exchangeChoices(areas);
+  if (!second_chosen_)
+    chooseCandidates(areas, all, std::min(settings_.pairs, kSecondEstimatePairs));
+  second_chosen_ = true;
   robust_ = kTrusting;
   weighting_.frozen = false;
   PatchPairs pairs;
@@ -178,6 +189,7 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
       jackknife(PatchAdjustment(pairs, about, robust_, settings_.threads)
                     .accumulateGroups(weighting_.scatter, overlap_.groups.size()),
                 weighting_.directions);
+  exchangeChoices(areas);
   const RigidMotion there = RigidMotion::about(overlap_.centroid, motion_);
   motion_ = motion;
   const RigidMotion here = RigidMotion::about(overlap_.centroid, motion_);
@@ -265,7 +277,6 @@ bool Alignment::registerDetermined(std::vector<AreaSurfaces>& areas) {
                                    more.vectors.end());
     weighting_.held.std.insert(weighting_.held.std.end(), more.std.begin(), more.std.end());
     result_.convergence_std.setZero();
-    chooseCandidates(areas, criterion_, settings_.pairs);
   }
 }
 

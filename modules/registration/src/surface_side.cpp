@@ -21,11 +21,10 @@ SurfaceSide::SurfaceSide(std::vector<Eigen::Vector3d> points, const Eigen::Align
                          double resolution)
     : surface_(Tin(std::move(points), resolution)), box_(box) {
   median_edge_ = typicalPlanEdge(surface_.tin(), kEdgeSamples);
-  verdicts_.assign(surface_.tin().triangles().size(), kUnknown);
 }
 
 PatchPlane SurfaceSide::planeOf(const PatchQuality& quality) const {
-  return {quality.plane_normal, criterion_.tiltStd(quality)};
+  return {quality.plane_normal, choice_.criterion.tiltStd(quality)};
 }
 
 void SurfaceSide::sampleRoughness(std::size_t count, std::vector<double>& values) const {
@@ -35,15 +34,14 @@ void SurfaceSide::sampleRoughness(std::size_t count, std::vector<double>& values
     const Eigen::Vector3d& corner = surface_.tin().points()[triangles[t].vertex[0]];
     if (!box_.contains(corner.head<2>())) continue;
     const PatchQuality quality = surface_.quality(static_cast<std::int32_t>(t));
-    if (criterion_.isSatisfiedBy(quality, median_edge_) && quality.slope < kGentleSlope)
+    if (choice_.criterion.isSatisfiedBy(quality, median_edge_) && quality.slope < kGentleSlope)
       values.push_back(quality.roughness);
   }
 }
 
 void SurfaceSide::chooseCandidates(std::size_t count, const SurfaceCriterion& criterion) {
-  criterion_ = criterion;
-  verdicts_.assign(verdicts_.size(), kUnknown);
-  planes_.clear();
+  choice_ = {criterion, {}, {}, {}};
+  choice_.verdicts.assign(surface_.tin().triangles().size(), kUnknown);
   // The normals of single triangles are noisy and only select triangles that are examined; the
   // orientation is that of the neighbourhood's plane.
   constexpr std::size_t kExaminedPerCandidate = 2, kExaminedTriangles = 16;
@@ -60,44 +58,45 @@ void SurfaceSide::chooseCandidates(std::size_t count, const SurfaceCriterion& cr
     const std::int32_t point = tin.triangles()[triangle].vertex[0];
     classes[OrientationClasses::of(plane.normal)].push_back({tin.points()[point], plane});
   }
-  candidates_ = chosenEvenly(classes, count);
+  choice_.candidates = chosenEvenly(classes, count);
 }
 
 void SurfaceSide::makeCoarse(std::size_t count) {
   coarse_ = true;
-  criterion_.edge_factor = kCoarseEdges;
+  choice_.criterion.edge_factor = kCoarseEdges;
   const auto& points = surface_.tin().points();
   const std::size_t step = 1 + points.size() / count;
-  for (std::size_t i = 0; i < points.size(); i += step) candidates_.push_back({points[i], {}});
+  for (std::size_t i = 0; i < points.size(); i += step)
+    choice_.candidates.push_back({points[i], {}});
 }
 
 bool SurfaceSide::planeOf(std::int32_t triangle, PatchPlane& plane) {
   if (coarse_) return judgeCoarse(triangle, plane);
-  std::int32_t& verdict = verdicts_[triangle];
+  std::int32_t& verdict = choice_.verdicts[triangle];
   if (verdict == kUnknown) {
-    verdict = judge(triangle, plane) ? static_cast<std::int32_t>(planes_.size()) : kUnfit;
-    if (verdict != kUnfit) planes_.push_back(plane);
+    verdict = judge(triangle, plane) ? static_cast<std::int32_t>(choice_.planes.size()) : kUnfit;
+    if (verdict != kUnfit) choice_.planes.push_back(plane);
   }
   if (verdict == kUnfit) return false;
-  plane = planes_[verdict];
+  plane = choice_.planes[verdict];
   return true;
 }
 
 bool SurfaceSide::judge(std::int32_t triangle, PatchPlane& plane) const {
   const PatchQuality quality = surface_.quality(triangle);
   plane = planeOf(quality);
-  return criterion_.isSatisfiedBy(quality, median_edge_);
+  return choice_.criterion.isSatisfiedBy(quality, median_edge_);
 }
 
 bool SurfaceSide::judgeCoarse(std::int32_t triangle, PatchPlane& plane) const {
   plane = {surface_.normal(triangle), 0.0};
-  if (plane.normal.z() < std::cos(criterion_.slope)) return false;
+  if (plane.normal.z() < std::cos(choice_.criterion.slope)) return false;
   const Tin::Triangle& t = surface_.tin().triangles()[triangle];
   for (int i = 0; i < 3; ++i) {
     if (t.neighbour[i] == Tin::kNone) return false;
     const Eigen::Vector3d& a = surface_.tin().points()[t.vertex[i]];
     const Eigen::Vector3d& b = surface_.tin().points()[t.vertex[(i + 1) % 3]];
-    if ((a - b).head<2>().norm() > criterion_.edge_factor * median_edge_) return false;
+    if ((a - b).head<2>().norm() > choice_.criterion.edge_factor * median_edge_) return false;
   }
   return true;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -29,6 +30,7 @@ struct PatchPlane {
 struct Candidate {
   Eigen::Vector3d position;
   PatchPlane plane;
+  std::int32_t under = Tin::kNone;  ///< triangle of the other cloud, where the next search starts
 };
 
 /** \brief The surface of one cloud in one area: TIN, candidate points, and the suitability of
@@ -47,13 +49,16 @@ class SurfaceSide {
   bool isCoarse() const { return coarse_; }
   bool empty() const { return surface_.tin().triangles().empty(); }
   const PatchSurface& surface() const { return surface_; }
-  const std::vector<Candidate>& candidates() const { return candidates_; }
+  std::vector<Candidate>& candidates() { return choice_.candidates; }
 
   /// Roughness on gentle slopes at about \a count places in the box.
   void sampleRoughness(std::size_t count, std::vector<double>& values) const;
   /// At most \a count candidates on surfaces within the limits, evenly over slopes and aspects;
   /// replaces those chosen before.
   void chooseCandidates(std::size_t count, const SurfaceCriterion& criterion);
+  /// Exchanges the candidates, with the limits and what is known of the patches, for others, which
+  /// are none at first.
+  void exchangeChoice() { std::swap(choice_, other_choice_); }
   /// Uses every n-th point, \a count at most, as candidate; the side is coarse from then on.
   void makeCoarse(std::size_t count);
 
@@ -66,14 +71,19 @@ class SurfaceSide {
   bool judgeCoarse(std::int32_t triangle, PatchPlane& plane) const;
   PatchPlane planeOf(const PatchQuality& quality) const;
 
+  /// Candidates within a criterion, and what is known of the patches.
+  struct Choice {
+    SurfaceCriterion criterion = surfaceCriterion();
+    std::vector<Candidate> candidates;
+    std::vector<std::int32_t> verdicts;  ///< by triangle: index into planes, or kUnknown, kUnfit
+    std::vector<PatchPlane> planes;
+  };
+
   PatchSurface surface_;
   Eigen::AlignedBox2d box_;
-  std::vector<Candidate> candidates_;
-  SurfaceCriterion criterion_ = surfaceCriterion();
+  Choice choice_, other_choice_;
   double median_edge_ = 0.0;  ///< metres in plan
   bool coarse_ = false;
-  std::vector<std::int32_t> verdicts_;  ///< by triangle: index into planes_, or kUnknown, kUnfit
-  std::vector<PatchPlane> planes_;
 };
 
 }  // namespace pcl_als::registration

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/tin/orientation_classes.h>
 
 namespace pcl_als {
@@ -20,12 +19,22 @@ std::size_t OrientationClasses::of(const Eigen::Vector3d& normal) {
   const int step = !steeper(1) ? 0 : !steeper(2) ? 1 : 2;
   // Coordinates are multiples of a step, so directions along the axes and diagonals are common:
   // borders between classes lie aside, or rounding would decide.
-  constexpr double kTieBreakingOffset = 0.1234;
-  const double turn =
-      std::fmod(std::atan2(normal.y(), normal.x()) + 3.0 * kPi + kTieBreakingOffset, 2.0 * kPi) /
-      (2.0 * kPi);
-  return static_cast<std::size_t>(1 + step * kAspects +
-                                  std::min(kAspects - 1, static_cast<int>(turn * kAspects)));
+  constexpr double kTieBreakingOffset = 0.1234;  // radians
+  static const double kCos = -std::cos(kTieBreakingOffset), kSin = -std::sin(kTieBreakingOffset);
+  double x = kCos * normal.x() - kSin * normal.y(), y = kSin * normal.x() + kCos * normal.y();
+  std::size_t aspect = 0;  // eighth of a turn
+  if (y < 0.0) {
+    aspect += 4;
+    x = -x;
+    y = -y;
+  }
+  if (x <= 0.0) {
+    aspect += 2;
+    std::swap(x, y);
+    y = -y;
+  }
+  if (y >= x) ++aspect;
+  return 1 + static_cast<std::size_t>(step) * kAspects + aspect;
 }
 
 }  // namespace pcl_als

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include <pcl_als/common/linear_solvers.h>
@@ -35,9 +34,8 @@ bool collectRing(const Tin& tin, std::int32_t triangle, int corner,
   return true;
 }
 
-/// The different vertices that are joined to a triangle's corners, without these.
-std::vector<std::int32_t> around(const std::array<std::int32_t, 3>& own,
-                                 std::vector<std::int32_t> ring) {
+/// Leaves of the ring the different vertices that are not the triangle's own.
+void keepOthers(const std::array<std::int32_t, 3>& own, std::vector<std::int32_t>& ring) {
   constexpr std::size_t kFew = 48;  // a linear search is faster
   if (ring.size() > kFew) {
     std::sort(ring.begin(), ring.end());
@@ -50,7 +48,6 @@ std::vector<std::int32_t> around(const std::array<std::int32_t, 3>& own,
     if (v != own[0] && v != own[1] && v != own[2] && !repeated) ring[kept++] = v;
   }
   ring.resize(kept);
-  return ring;
 }
 
 /// Sums over points, relative to one of them.
@@ -98,14 +95,15 @@ double angleBetween(const Vector3d& a, const Vector3d& b) {
 
 PatchQuality PatchSurface::quality(std::int32_t triangle) const {
   PatchQuality quality;
-  std::vector<std::int32_t> ring;
-  ring.reserve(64);
+  thread_local std::vector<std::int32_t> ring;
+  ring.clear();
   for (int corner = 0; corner < 3; ++corner)
     quality.on_hull = collectRing(tin_, triangle, corner, ring) || quality.on_hull;
   const auto& own = tin_.triangles()[triangle].vertex;
   const Vector3d& origin = tin_.points()[own[0]];
   Moments others;
-  for (const std::int32_t v : around(own, std::move(ring))) others.add(tin_.points()[v] - origin);
+  keepOthers(own, ring);
+  for (const std::int32_t v : ring) others.add(tin_.points()[v] - origin);
   Moments all = others;
   for (const std::int32_t v : own) all.add(tin_.points()[v] - origin);
   constexpr double kMaximumStored = std::numeric_limits<std::uint16_t>::max();

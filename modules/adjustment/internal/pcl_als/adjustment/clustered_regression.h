@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/adjustment/correlated_errors.h>
+
 namespace pcl_als {
 
 /** \brief Linear least squares with a covariance that allows for correlated errors of neighbours.
@@ -27,15 +29,17 @@ namespace pcl_als {
  */
 class ClusteredRegression {
  public:
+  using Row = CorrelatedErrors::Row;
+
   /// \param unknowns 1 … 6
   explicit ClusteredRegression(int unknowns);
 
-  void add(std::int64_t cluster, const Eigen::VectorXd& row, double value);
+  void add(std::int64_t cluster, const Row& row, double value);
   /// At a plan position (metres): errors of clusters may then be correlated as well
   /// (CorrelatedErrors). \a effect: of the shared error, 1 for heights, the normal for distances
   /// along it. Either all observations have a place or none.
-  void add(std::int64_t cluster, const Eigen::VectorXd& row, double value,
-           const Eigen::Vector2d& place, const Eigen::VectorXd& effect = Eigen::VectorXd::Ones(1));
+  void add(std::int64_t cluster, const Row& row, double value, const Eigen::Vector2d& place,
+           const Row& effect = Row::Ones(1));
   std::size_t count() const { return values_.size(); }
 
   struct Result {
@@ -59,6 +63,7 @@ class ClusteredRegression {
   static constexpr std::size_t kFewestClusters = 3;
 
  private:
+  Eigen::Map<const Row> rowOf(std::size_t i) const { return {&rows_[i * unknowns_], unknowns_}; }
   void raiseByCorrelation(const Eigen::VectorXd& weights, const Eigen::VectorXd& left,
                           Result& result) const;
   Eigen::VectorXd residuals(const Eigen::VectorXd& estimate) const;
@@ -67,7 +72,7 @@ class ClusteredRegression {
   std::vector<double> rows_, values_;
   std::vector<std::int64_t> clusters_;
   std::vector<Eigen::Vector2d> places_;
-  std::vector<Eigen::VectorXd> effects_;
+  std::vector<Row> effects_;
 };
 
 }  // namespace pcl_als

@@ -20,9 +20,9 @@ namespace pcl_als {
 
 /** \brief The points of one area by strip, and the offsets between the strips there.
  *
- * Fill with add() (different strips may be added from different threads); then build(), offsets()
- * and release(), from one thread. Memory: 48 bytes per point, 73 to 173 more between build() and
- * release().
+ * Fill with add() (different strips may be added from different threads); then build(),
+ * choosePlaces(), offsets() and release(), from one thread. Memory: 48 bytes per point, 73 to 173
+ * more between build() and release().
  */
 class AreaOffsets {
  public:
@@ -41,9 +41,11 @@ class AreaOffsets {
   void clear() { strips_.assign(strips_.size(), StripPart()); }  ///< deletes all points
 
   /// Removes points high in the vegetation (dropHighVegetation()) and builds the TIN of every strip
-  /// with enough points. \a resolution: metres, step of the coordinates.
+  /// with enough points, unless there are TINs from another call, with other limits. \a resolution:
+  /// metres, step of the coordinates.
   void build(const SurfaceLimits& limits, double resolution);
-  void release();  ///< deletes the TINs and keeps the points
+  void choosePlaces();  ///< the places of offsets(), on surfaces within the limits
+  void release();       ///< deletes the TINs and keeps the points
 
   /// Roughness of the surfaces of all strips on gentle slopes, metres, at up to some hundred
   /// places; determines the limit of smooth surfaces for these data.
@@ -93,11 +95,12 @@ class AreaOffsets {
   void measure(const StripPart& from, const StripPart& to, double sign,
                std::vector<OffsetSample>& found) const;
   bool measureAt(const StripPart& from, const Place& place, const StripPart& to, double sign,
-                 OffsetSample& sample) const;
+                 std::int32_t& hint, OffsetSample& sample) const;
 
   SurveyArea area_;
   std::vector<StripPart> strips_;
   SurfaceLimits limits_;
+  bool built_ = false;
 };
 
 }  // namespace pcl_als
