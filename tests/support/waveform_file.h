@@ -80,7 +80,8 @@ struct WaveformFile {
                                       .f32(static_cast<float>(to_anchor.y()))
                                       .f32(static_cast<float>(to_anchor.z()))
                                       .str();
-    record.replace(format < 6 ? 28 : 30, reference.size(), reference);
+    const std::size_t at_byte = format == 4 ? 28 : format == 5 ? 34 : format == 9 ? 30 : 38;
+    record.replace(at_byte, reference.size(), reference);
     points += record;
     ++point_count;
   }

@@ -26,7 +26,6 @@ std::string faultOf(const WaveformDescriptor& d, unsigned compression) {
   if (compression != 0)
     return "packets of compression type " + std::to_string(compression) +
            ", which the specification does not define";
-  if (d.samples == 0) return "packets without samples";
   if (d.spacing_ps == 0) return "a time of 0 ps between samples";
   if (!std::isfinite(d.gain) || d.gain == 0.0)
     return "a digitizer gain of " + shortText(d.gain) + "; a number other than zero is needed";
@@ -49,6 +48,11 @@ WaveformDescriptor parseDescriptor(const std::vector<std::byte>& bytes, const st
   return d;
 }
 
+/// Whether a descriptor has no samples: some writers fill a table of descriptors with such.
+bool isUnused(const std::vector<std::byte>& bytes) {
+  return bytes.size() >= kDescriptorBytes && loadLas<std::uint32_t>(&bytes[2]) == 0;
+}
+
 bool equal(const WaveformDescriptor& a, const WaveformDescriptor& b) {
   return a.bits == b.bits && a.samples == b.samples && a.spacing_ps == b.spacing_ps &&
          a.gain == b.gain && a.offset == b.offset;
@@ -67,7 +71,9 @@ std::map<unsigned, WaveformDescriptor> readWaveformDescriptors(const LasFile& la
     if (!isDescriptor(vlr)) continue;
     const std::string name = las.path().string() + ": waveform packet descriptor (record " +
                              std::to_string(vlr.record_id) + ")";
-    const WaveformDescriptor found = parseDescriptor(las.payload(vlr), name);
+    const std::vector<std::byte> payload = las.payload(vlr);
+    if (isUnused(payload)) continue;
+    const WaveformDescriptor found = parseDescriptor(payload, name);
     const auto [at, is_new] = descriptors.emplace(vlr.record_id - kRecordOfIndexZero, found);
     if (!is_new && !equal(at->second, found))
       throw InputError(name + " occurs twice, with different values");
