@@ -13,6 +13,7 @@
 
 #include "copc_bytes.h"
 #include "las_bytes.h"
+#include "pulse_waves_bytes.h"
 
 namespace pcl_als::fuzz {
 namespace {
@@ -167,6 +168,26 @@ std::vector<std::string> xyzSeeds() {
   return {"x y z gps_time intensity point_source_id\n1 2 3 230038.25 7 1\n4.5 nan 6e0 230039 8 1\n",
           "# pcl_als strip 7\n//X,Y,Z,Class\n583390.125,5283100.5,3,2\n", "1 2 3\n\n4 5 6",
           "x;y;z;user_data;skip\r\n1;2;3;255;word\r\n"};
+}
+
+std::vector<std::string> pulseWavesSeeds() {
+  std::vector<std::string> seeds;
+  for (const unsigned attributes : {0U, 1U, 2U}) {
+    test::SimulatedPulses pulses;
+    pulses.echoes.resize(3);
+    test::PulseWavesBytes& file = pulses.bytes;
+    file.attributes = attributes;
+    file.extra_bytes = 4 * attributes;
+    file.appended_count = static_cast<int>(attributes) - 1;
+    file.vlrs = {test::PulseWavesBytes::vlr(2112, "LOCAL_CS[\"x\"]", "PulseWaves_Proj")};
+    if (attributes != 1)
+      file.appended = {test::PulseWavesBytes::avlr(
+          300001, test::PulseWavesBytes::tableBytes({0.0F, 1.0F, 2.5F}))};
+    pulses.make();
+    const std::string pls = file.pls();
+    seeds.push_back(Bytes().u32(pls.size()).str() + pls + file.wvs());
+  }
+  return seeds;
 }
 
 std::vector<std::string> trajectorySeeds() {

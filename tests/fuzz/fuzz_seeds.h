@@ -16,6 +16,8 @@ std::vector<std::string> copcSeeds();
 std::vector<std::string> pcdSeeds();
 std::vector<std::string> plySeeds();
 std::vector<std::string> xyzSeeds();
+/// A Pulse file and its Waves file, behind the number of bytes of the former.
+std::vector<std::string> pulseWavesSeeds();
 std::vector<std::string> trajectorySeeds();
 std::vector<std::string> sbetSeeds();
 std::vector<std::string> exportSeeds();

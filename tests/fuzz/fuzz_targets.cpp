@@ -3,6 +3,7 @@
 #include "fuzz_targets.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/io/dataset_inventory.h>
 #include <pcl_als/io/image_block_io.h>
 #include <pcl_als/io/pcd_io.h>
@@ -17,6 +19,7 @@
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/las/las_file.h>
+#include <pcl_als/waveform/pulse_waves_reader.h>
 
 #include "fuzz_seeds.h"
 #include "laz_codec_target.h"
@@ -138,6 +141,26 @@ std::string withChecksums(std::string bytes) {
   return bytes;
 }
 
+/// The file begins with the number of bytes of the Pulse file; those of the Waves file follow it.
+void readPulseWaves(const std::filesystem::path& path, const std::filesystem::path& waves) {
+  constexpr std::uint64_t most = 1000;
+  const std::string bytes = readWholeFile(path, kBinaryLimits);
+  std::uint32_t size = 0;
+  if (bytes.size() < sizeof size) return;
+  std::memcpy(&size, bytes.data(), sizeof size);
+  std::ofstream(path, std::ios::binary) << bytes.substr(sizeof size, size);
+  std::ofstream(waves, std::ios::binary)
+      << (bytes.size() - sizeof size > size ? bytes.substr(sizeof size + size) : "");
+  const PulseWavesFile file(path);
+  describePulseWaves(file);
+  const WavesFile all(file);
+  PulseWavesReader reader(all);
+  std::vector<PulseRecord> pulses;
+  std::vector<PulseSegment> segments;
+  file.read(0, std::min(file.header().pulse_count, most), pulses);
+  for (std::size_t i = 0; i < pulses.size(); ++i) reader.read(pulses[i], i, segments);
+}
+
 bool las(const std::uint8_t* data, std::size_t size) {
   return readAs(".las", data, size, readLas);
 }
@@ -158,6 +181,15 @@ bool ply(const std::uint8_t* data, std::size_t size) {
 }
 bool xyz(const std::uint8_t* data, std::size_t size) {
   return readAs(".xyz", data, size, readPoints);
+}
+bool pulseWaves(const std::uint8_t* data, std::size_t size) {
+  std::filesystem::path waves;
+  const bool accepted = readAs(".pls", data, size, [&waves](const std::filesystem::path& path) {
+    waves = path;
+    readPulseWaves(path, waves.replace_extension(".wvs"));
+  });
+  std::filesystem::remove(waves);
+  return accepted;
 }
 bool trajectoryCsv(const std::uint8_t* data, std::size_t size) {
   return readAs(".csv", data, size, [](const auto& path) { readTrajectory(path); });
@@ -218,6 +250,7 @@ const std::vector<Target>& readerTargets() {
       {"pcd", pcd, pcdSeeds},
       {"ply", ply, plySeeds},
       {"xyz", xyz, xyzSeeds},
+      {"pulse_waves", pulseWaves, pulseWavesSeeds},
       {"trajectory_csv", trajectoryCsv, trajectorySeeds},
       {"trajectory_export", trajectoryExport, exportSeeds},
       {"sbet", sbet, sbetSeeds},

@@ -22,9 +22,9 @@ struct Target {
   std::vector<std::string> (*seeds)();
 };
 
-/// Files of points and trajectories, control, calibrations: las, laz, damaged_laz, copc, pcd;
-/// trajectory_csv, trajectory_export, sbet, smrmsg, terrascan, riegl_pof, riegl_poq, leica_sol;
-/// control, calibration; camera, images, image_coordinates, object_lines
+/// Files of points and trajectories, control, calibrations: las, laz, damaged_laz, copc, pcd,
+/// pulse_waves; trajectory_csv, trajectory_export, sbet, smrmsg, terrascan, riegl_pof, riegl_poq,
+/// leica_sol; control, calibration; camera, images, image_coordinates, object_lines
 const std::vector<Target>& readerTargets();
 /// geojson, class_sites, confusion_matrix, checked_sites, class_model, geotiff. A library of its
 /// own: these need most modules, which take long to build with sanitizers.
