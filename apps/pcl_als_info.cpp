@@ -12,6 +12,7 @@
 #include <pcl_als/processing/strip_inventory.h>
 #include <pcl_als/processing/trajectory_loading.h>
 #include <pcl_als/report/inventory_report.h>
+#include <pcl_als/waveform/pulse_waves_file.h>
 #include <pcl_als/waveform/waveform_reader.h>
 
 #include "command_line.h"
@@ -33,10 +34,12 @@ ListedTrajectory flightOf(const CommandLine& line) {
 }
 
 CommandLine commandLine() {
-  CommandLine line("pcl_als_info",
-                   "lists the contents of point files: strips, times, density, returns, overlaps",
-                   "FILE… [-trajectory T] [-output FILE]",
-                   "pcl_als_info strip1.las strip2.las -output survey.json");
+  CommandLine line(
+      "pcl_als_info",
+      "lists the contents of point files: strips, times, density, returns, overlaps; of "
+      "PulseWaves files (.pls) the pulses and how their waveforms are sampled",
+      "FILE… [-trajectory T] [-output FILE]",
+      "pcl_als_info strip1.las strip2.las -output survey.json");
   line.setArguments({{"trajectory", 0, Arguments::kAnyNumber},
                      {"trajectory_accuracy", 0, Arguments::kAnyNumber},
                      {"", 1, Arguments::kAnyNumber}});
@@ -83,10 +86,29 @@ void addWaveforms(const CommandLine& line, DatasetInventory& survey) {
   }
 }
 
+/// Prints the contents of Pulse files. \return the other inputs
+std::vector<std::string> describePulseFiles(const CommandLine& line) {
+  std::vector<std::string> others;
+  for (const std::string& input : line.inputs()) {
+    const std::string extension = lowerExtension(input);
+    if (extension != ".pls" && extension != ".plz") {
+      others.push_back(input);
+      continue;
+    }
+    if (line.has("output"))
+      throw UsageError("-output lists points, and " + input + " has pulses; leave it out");
+    const std::vector<std::string> texts = describePulseWaves(PulseWavesFile(input));
+    if (line.quiet()) continue;
+    std::cout << '\n' << input << '\n';
+    for (const std::string& text : texts) std::cout << "  " << printable(text) << '\n';
+  }
+  return others;
+}
+
 int info(const CommandLine& line) {
   const PointWindow window = windowOf(line);
   const double cell = line.number("cell");
-  const auto& inputs = line.inputs();
+  const std::vector<std::string> inputs = describePulseFiles(line);
   ListedTrajectory flight = flightOf(line);
   if (!line.quiet()) std::cout << flightText(flight);
   if (inputs.empty()) {

@@ -48,19 +48,24 @@ CommandLine commandLine() {
   CommandLine line(
       "pcl_als_waveform",
       "decomposes the waveforms of a LAS or LAZ file (point formats 4, 5, 9 and 10, packets in the "
-      "file or in a .wdp beside it) into echoes, and writes all of them as points.\n"
+      "file or in a .wdp beside it) or of a PulseWaves file (.pls with its .wvs) into echoes, and "
+      "writes all of them as points.\n"
       "Extra bytes: amplitude (digitizer counts), echo_width and echo_width_std (full width at "
       "half maximum, ns), range_std (m), number_of_samples_saturated, new_echo (1: an echo that "
       "the scanner did not return; it is flagged as synthetic), and with -trajectory "
       "cross_section (m2) and backscatter_coefficient by the radar equation (Wagner 2010). "
       "Everything else of the records is "
-      "kept; return numbers follow the times of the echoes where some are added.",
+      "kept; return numbers follow the times of the echoes where some are added. The pulses of a "
+      "PulseWaves file have no returns: all echoes are new, and the extra byte channel is that of "
+      "the receiver.",
       "IN OUT [options]", "pcl_als_waveform strip1.las echoes.laz -pulse_width 4.8");
   line.setArguments({{"", 1, 1, {".las", ".laz"}}});
-  line.addNumber("pulse_width",
-                 "full width at half maximum of the response of the system to a point target, a "
-                 "Gaussian (default: the commonest width of single echoes)",
-                 std::nullopt, {0.05, 1000.0, "ns"})
+  line.addNumber(
+          "pulse_width",
+          "full width at half maximum of the response of the system to a point target, a "
+          "Gaussian (default: the mean of emitted pulses of a PulseWaves file, otherwise the "
+          "commonest width of single echoes)",
+          std::nullopt, {0.05, 1000.0, "ns"})
       .in(app::Group::inputs);
   line.addInputFile("pulse",
                     "the response by samples, such as the emitted pulse: CSV time_ns,value, evenly "
@@ -81,6 +86,11 @@ CommandLine commandLine() {
   line.addFlag("only_returns", "write no new echoes").in(app::Group::output);
   line.addFlag("move_returns", "move returns along their pulse to their echoes")
       .in(app::Group::output);
+  line.addChoice("range_from",
+                 "where the times of echoes of a PulseWaves file count from: anchor, as stored, or "
+                 "the emitted pulse of the same pulse (default: emitted where the file states "
+                 "when the samples of emitted pulses begin)",
+                 {"anchor", "emitted"});
   addCrossSectionOptions(line);
   return line;
 }
@@ -122,6 +132,9 @@ WaveformSettings settingsOf(const CommandLine& line) {
   if (line.has("saturation")) settings.saturation = line.number("saturation");
   settings.new_echoes = !line.has("only_returns");
   settings.move_returns = line.has("move_returns");
+  if (line.has("range_from"))
+    settings.range_from =
+        line.text("range_from") == "anchor" ? RangeOrigin::anchor : RangeOrigin::emitted;
   settings.threads = line.threads();
   settings.cross_sections = crossSections(line);
   return settings;

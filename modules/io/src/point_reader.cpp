@@ -114,6 +114,9 @@ std::unique_ptr<PointReader> PointReader::open(const std::filesystem::path& path
   const std::string extension = lowerExtension(path);
   if (extension == ".las" || extension == ".laz")
     return std::make_unique<LasPointReader>(path, window, other);
+  if (extension == ".pls")
+    throw InputError(path.string() +
+                     ": has pulses, not points; pcl_als_waveform writes their echoes as points");
   if (!isPointExtension(extension))
     throw InputError(path.string() + ": is no point file by its name (" + kPointExtensions + ")");
   if (window.resolution > 0.0)

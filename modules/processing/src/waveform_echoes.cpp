@@ -64,14 +64,27 @@ std::int32_t rounded(double value, const std::string& name) {
 
 }  // namespace
 
+std::vector<LasExtraField> echoAttributeFields() {
+  return {fieldOf("amplitude", "of the echo, digitizer counts", LasExtraType::f32),
+          fieldOf("echo_width", "full width at half maximum, ns", LasExtraType::f32),
+          fieldOf("echo_width_std", "standard deviation, ns", LasExtraType::f32),
+          fieldOf("range_std", "of the echo, m", LasExtraType::f32),
+          fieldOf("number_of_samples_saturated", "of the echo", LasExtraType::u16),
+          fieldOf("new_echo", "1: no return of the scanner", LasExtraType::u8)};
+}
+
+void storeEchoAttributes(const EchoAttributes& echo, const std::vector<LasExtraField>& fields,
+                         std::byte* record) {
+  storeLas(record + fields[kAmplitude].position, echo.amplitude);
+  storeLas(record + fields[kWidth].position, echo.echo_width);
+  storeLas(record + fields[kWidthStd].position, echo.echo_width_std);
+  storeLas(record + fields[kRangeStd].position, echo.range_std);
+  storeLas(record + fields[kSaturated].position, echo.saturated);
+  storeLas(record + fields[kNew].position, static_cast<std::uint8_t>(echo.new_echo ? 1 : 0));
+}
+
 EchoFields::EchoFields(const LasFile& las, const EchoCrossSections* cross_sections) {
-  std::vector<LasExtraField> wanted{
-      fieldOf("amplitude", "of the echo, digitizer counts", LasExtraType::f32),
-      fieldOf("echo_width", "full width at half maximum, ns", LasExtraType::f32),
-      fieldOf("echo_width_std", "standard deviation, ns", LasExtraType::f32),
-      fieldOf("range_std", "of the echo, m", LasExtraType::f32),
-      fieldOf("number_of_samples_saturated", "of the echo", LasExtraType::u16),
-      fieldOf("new_echo", "1: no return of the scanner", LasExtraType::u8)};
+  std::vector<LasExtraField> wanted = echoAttributeFields();
   if (cross_sections != nullptr) {
     const bool calibrated = cross_sections->result().calibrated;
     wanted.push_back(fieldOf("cross_section",
@@ -90,12 +103,7 @@ EchoFields::EchoFields(const LasFile& las, const EchoCrossSections* cross_sectio
 }
 
 void EchoFields::store(const EchoAttributes& echo, std::byte* record) const {
-  storeLas(record + fields[kAmplitude].position, echo.amplitude);
-  storeLas(record + fields[kWidth].position, echo.echo_width);
-  storeLas(record + fields[kWidthStd].position, echo.echo_width_std);
-  storeLas(record + fields[kRangeStd].position, echo.range_std);
-  storeLas(record + fields[kSaturated].position, echo.saturated);
-  storeLas(record + fields[kNew].position, static_cast<std::uint8_t>(echo.new_echo ? 1 : 0));
+  storeEchoAttributes(echo, fields, record);
 }
 
 void EchoFields::storeSection(float cross_section, float coefficient, std::byte* record) const {

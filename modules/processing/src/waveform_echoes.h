@@ -15,6 +15,13 @@
 
 namespace pcl_als::detail {
 
+/// The extra bytes of an echo, in the order in which storeEchoAttributes() expects them.
+std::vector<LasExtraField> echoAttributeFields();
+/// \param fields those of echoAttributeFields() with their positions, and perhaps others behind
+/// them
+void storeEchoAttributes(const EchoAttributes& echo, const std::vector<LasExtraField>& fields,
+                         std::byte* record);
+
 /// The extra fields of the output, and where they lie in its records.
 struct EchoFields {
   std::vector<LasExtraField> fields;  ///< placed

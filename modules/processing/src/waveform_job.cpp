@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
-#include <cmath>
-
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/file_version.h>
 #include <pcl_als/common/number_text.h>
-#include <pcl_als/common/parallel.h>
 #include <pcl_als/las/las_selection.h>
 #include <pcl_als/processing/waveform_job.h>
 
+#include "block_decomposition.h"
 #include "echo_cross_sections.h"
+#include "pulse_waves_job.h"
 #include "waveform_echoes.h"
 #include "waveform_pulses.h"
 
 namespace pcl_als {
 namespace {
-
-/// Pulses that a thread decomposes at once.
-constexpr std::size_t kPulsesTogether = 512;
 
 std::map<unsigned, PulseResponse> responsesOf(const WaveformSource& source,
                                               const WaveformSettings& settings) {
@@ -37,56 +33,10 @@ std::map<unsigned, PulseResponse> responsesOf(const WaveformSource& source,
                         las.path().string());
 }
 
-/// Decomposes the pulses of a block on several threads, in the order of the file.
-class BlockDecomposition {
- public:
-  BlockDecomposition(const detail::EchoJob& job, LasSelectionWriter& output)
-      : output_(output), threads_(job.settings.threads) {
-    const unsigned workers = threadCount(threads_);
-    for (unsigned i = 0; i < workers; ++i) workers_.push_back({detail::EchoWriter(job), {}, {}});
-  }
-
-  void take(const std::vector<detail::WaveformPulse>& pulses) {
-    const std::size_t together = workers_.size() * kPulsesTogether;
-    for (std::size_t from = 0; from < pulses.size(); from += together) {
-      const std::size_t to = std::min(pulses.size(), from + together);
-      const std::size_t chunks = (to - from + kPulsesTogether - 1) / kPulsesTogether;
-      parallelFor(chunks, threads_, [&](std::size_t chunk) {
-        Worker& worker = workers_[chunk];
-        worker.records.clear();
-        const std::size_t begin = from + chunk * kPulsesTogether;
-        for (std::size_t i = begin; i < std::min(to, begin + kPulsesTogether); ++i)
-          worker.writer.append(pulses[i], worker.records, worker.counts);
-      });
-      for (std::size_t chunk = 0; chunk < chunks; ++chunk) write(workers_[chunk]);
-    }
-  }
-  const WaveformCounts& counts() const { return counts_; }
-
- private:
-  struct Worker {
-    detail::EchoWriter writer;
-    std::vector<std::byte> records;
-    WaveformCounts counts;
-  };
-
-  void write(Worker& worker) {
-    if (!worker.records.empty())
-      output_.append(worker.records.data(), worker.records.size() / recordLength(worker));
-    counts_.merge(worker.counts);
-    worker.counts = {};
-  }
-  static std::size_t recordLength(const Worker& worker) { return worker.writer.recordLength(); }
-
-  LasSelectionWriter& output_;
-  const int threads_;
-  std::vector<Worker> workers_;
-  WaveformCounts counts_;
-};
-
 }  // namespace
 
 void WaveformCounts::merge(const WaveformCounts& other) {
+  pulses += other.pulses;
   points += other.points;
   without_waveform += other.without_waveform;
   waveforms += other.waveforms;
@@ -102,13 +52,12 @@ void WaveformCounts::merge(const WaveformCounts& other) {
   opaque += other.opaque;
 }
 
-WaveformResult decomposeWaveforms(const std::filesystem::path& input,
-                                  const std::filesystem::path& output,
-                                  const WaveformSettings& settings,
-                                  const ProgressCallback& callback) {
-  settings.check();
-  const UnchangedInputs unchanged;
-  ProgressReport progress(callback);
+namespace {
+
+/// decomposeWaveforms() of a file of points.
+WaveformResult decomposePoints(const std::filesystem::path& input,
+                               const std::filesystem::path& output,
+                               const WaveformSettings& settings, ProgressReport& progress) {
   const LasFile las(input);
   const WaveformSource source(las);
   std::optional<detail::EchoCrossSections> sections;
@@ -137,9 +86,16 @@ WaveformResult decomposeWaveforms(const std::filesystem::path& input,
   }
   progress.begin("Decomposing waveforms");
   LasSelectionWriter writer(output, las, job.fields.fields, settings.threads);
-  BlockDecomposition blocks(job, writer);
+  detail::BlockDecomposition<detail::EchoWriter> blocks(
+      [&] { return detail::EchoWriter(job); },
+      [&](const std::vector<std::byte>& records) {
+        writer.append(records.data(), records.size() / job.fields.record_length);
+      },
+      settings.threads);
   detail::readPulses(las, [&](const std::vector<detail::WaveformPulse>& pulses) {
-    blocks.take(pulses);
+    blocks.take(pulses.size(),
+                [&](detail::EchoWriter& echoes, std::size_t i, auto& records,
+                    WaveformCounts& counts) { echoes.append(pulses[i], records, counts); });
     progress.advance(static_cast<double>(blocks.counts().points) /
                      static_cast<double>(las.header().point_count));
   });
@@ -153,6 +109,23 @@ WaveformResult decomposeWaveforms(const std::filesystem::path& input,
       result.remarks.push_back("warning: " + warning);
   progress.end(grouped(c.echoes) + " echoes in " + grouped(c.waveforms) + " waveforms");
   return result;
+}
+
+}  // namespace
+
+WaveformResult decomposeWaveforms(const std::filesystem::path& input,
+                                  const std::filesystem::path& output,
+                                  const WaveformSettings& settings,
+                                  const ProgressCallback& callback) {
+  settings.check();
+  const UnchangedInputs unchanged;
+  ProgressReport progress(callback);
+  if (lowerExtension(input) == ".pls" || lowerExtension(input) == ".plz")
+    return detail::decomposePulses(input, output, settings, progress);
+  if (settings.range_from != RangeOrigin::automatic)
+    throw UsageError(input.string() +
+                     ": only PulseWaves files have emitted pulses that ranges can be counted from");
+  return decomposePoints(input, output, settings, progress);
 }
 
 namespace {
@@ -188,9 +161,13 @@ std::string describe(const WaveformResult& result) {
             " ns (full width at half maximum)\n";
   text += grouped(c.waveforms) + " waveforms, " + grouped(c.single) + " with a single echo, " +
           grouped(c.saturated) + " with saturated samples\n";
-  text += grouped(c.echoes) + " echoes: " + grouped(c.matched) + " of returns, " +
-          grouped(c.added) + " new points; " + grouped(c.unmatched) + " returns without an echo, " +
-          grouped(c.without_waveform) + " without a waveform\n";
+  if (c.pulses > 0)
+    text += grouped(c.echoes) + " echoes of " + grouped(c.pulses) + " pulses; " +
+            counted(c.without_waveform, "pulse") + " without a returning waveform\n";
+  else
+    text += grouped(c.echoes) + " echoes: " + grouped(c.matched) + " of returns, " +
+            grouped(c.added) + " new points; " + grouped(c.unmatched) +
+            " returns without an echo, " + grouped(c.without_waveform) + " without a waveform\n";
   if (c.matched > 0)
     text +=
         "echoes are " + numberText(c.meanOffset(), 0) + " ps behind their returns in the mean\n";

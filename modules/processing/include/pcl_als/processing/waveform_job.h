@@ -42,18 +42,27 @@ struct CrossSectionResult {
   double full_coefficient = 0.0;  ///< backscatter coefficient of a whole pulse; 0: no correction
 };
 
+/// Where the times of the echoes of a Pulse file count from.
+enum class RangeOrigin {
+  automatic,  ///< the emitted pulse where the file states when its samples begin, else the anchor
+  anchor,     ///< as the file states them
+  emitted     ///< the maximum of the emitted pulse of the same pulse
+};
+
 /// EchoSettings, and what is written.
 struct WaveformSettings : EchoSettings {
   CrossSectionSettings cross_sections;
   bool new_echoes = true;     ///< write the echoes that no return belongs to
   bool move_returns = false;  ///< move returns along their pulse to the time of their echo
-  int threads = 0;            ///< 0: all cores; the result does not depend on it
+  RangeOrigin range_from = RangeOrigin::automatic;  ///< of Pulse files
+  int threads = 0;  ///< 0: all cores; the result does not depend on it
 };
 
 /// Counts of a decomposed file.
 struct WaveformCounts {
-  std::uint64_t points = 0;            ///< of the input
-  std::uint64_t without_waveform = 0;  ///< points
+  std::uint64_t pulses = 0;            ///< of a Pulse file
+  std::uint64_t points = 0;            ///< of a file of points
+  std::uint64_t without_waveform = 0;  ///< points, or pulses
   std::uint64_t waveforms = 0;
   std::uint64_t echoes = 0;
   std::uint64_t matched = 0;     ///< points that an echo belongs to
@@ -80,7 +89,8 @@ struct WaveformResult {
   std::vector<std::string> remarks;
 };
 
-/** \brief Decomposes the waveforms of a LAS or LAZ file into echoes, and writes them as points.
+/** \brief Decomposes the waveforms of a LAS, LAZ or PulseWaves file into echoes, and writes them as
+ * points.
  *
  * Every point keeps its record. The extra bytes amplitude (digitizer counts), echo_width and
  * echo_width_std (full width at half maximum, nanoseconds), range_std (metres),
@@ -96,10 +106,21 @@ struct WaveformResult {
  * no echo is added a second time if fewer than a million waveforms lie between. Memory is constant.
  * Output through AtomicFile, with external waveforms copied (WaveformCopy).
  *
- * UsageError for settings out of their ranges and where the output is the input. InputError for
- * files without waveforms, damaged descriptors and packets (WaveformReader), and if the width of
- * the response cannot be estimated; also for a trajectory that does not belong to the points, and
- * if the targets have too few single echoes. Cancelled.
+ * A Pulse file (.pls, with its .wvs) has pulses and no returns: every echo is a new point, in LAS
+ * 1.4 and point format 6, with the reference, time, scan flags and source of the pulse (0 for
+ * sources above 65535), and its scanner as channel. All are flagged as synthetic, with new_echo 1
+ * and class 1; return numbers count the echoes of a pulse. The intensity is the amplitude as a
+ * share of the largest count, over 16 bits, and the extra byte channel is that of the receiver. A
+ * point lies at anchor + (t - e) (target - anchor) / 1000 with the time t of the echo from the
+ * anchor in sampling units. By RangeOrigin e is 0, or the time of the maximum of the emitted pulse,
+ * less its mean in the file where the begin of its samples is not stated. Without a given response,
+ * that of a Pulse file with emitted pulses is their mean (EmittedPulseMean).
+ *
+ * UsageError for settings out of their ranges, where the output is the input, for cross sections,
+ * moved returns or returns alone of a Pulse file, and for a RangeOrigin of other files. InputError
+ * for files without waveforms, damaged descriptors and packets (WaveformReader, PulseWavesReader),
+ * and if the width of the response cannot be estimated; also for a trajectory that does not belong
+ * to the points, and if the targets have too few single echoes. Cancelled.
  */
 WaveformResult decomposeWaveforms(const std::filesystem::path& input,
                                   const std::filesystem::path& output,
