@@ -481,11 +481,19 @@ def different_scanners(block):
     return block.calibrate()
 
 
-@situation("headings from true north in a grid turned by 1.5°, `calibrate`", "1.5°",
-           r"boresight_heading is 1\.5\d degrees.*true north")
+@situation("headings of the trajectory from true north, the points from grid north, `calibrate`",
+           "1.5°, harmless", r"verdict: usable[\s\S]*largest error: [0-2]\.\d")
 def true_north(block):
-    block.simulate("-bias", "none")
+    block.simulate()
     edit_csv(block.trajectory, moved("heading", 1.5))
+    status, text = block.calibrate()
+    return status, text + block.errors()
+
+
+@situation("points from true north as well, `calibrate`", "heading 1.5°",
+           r"boresight_heading is 1\.[45]\d degrees.*true north")
+def points_from_true_north(block):
+    block.simulate("-bias", "boresight_heading=5400")
     return block.calibrate()
 
 

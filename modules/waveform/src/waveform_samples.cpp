@@ -4,6 +4,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/las/las_record.h>
 #include <pcl_als/waveform/waveform_reader.h>
 
 namespace pcl_als {
