@@ -22,11 +22,13 @@ for name in 3.ch0 3.ch1 4.ch0 4.ch1 5.ch0 5.ch1; do
 done
 check "every two channels are compared" test "$(grep -c '"a":' channels.json)" = 15
 
+value_of() { awk -v s="\"$1\"" '/"source":/ { found = index($0, s) } found && /"value":/ { gsub(/[^-0-9.e]/, "", $2); print $2 }' "$2"; }
 expect 2 "no field 'beam'" check "${strips[@]}" -channels beam -output x.json
 expect 3 "channel1_boresight_roll: boresight roll of channel 1 against channel 0" \
   calibrate "${strips[@]}" "${flight[@]}" -channels scanner_channel -output c.json
 check "roll of the second channel in the diagnosis" awk '/"source": "channel1_boresight_roll"/ { getline; getline
   gsub(/[^0-9.]/, "", $2); found = $2 > 0.9 } END { exit !found }' c.json
+check "difference of the channels" awk -v v="$(value_of channel1_boresight_roll c.json)" 'BEGIN { exit !(v > 117 && v < 123) }'
 checks=$((checks + 1))
 grep -q '"3.ch1"' c.json || failed "c.json has no strip 3.ch1: status $status"
 
@@ -39,7 +41,6 @@ read -r first second < <(awk '/"boresight_roll"/ { getline; gsub(/[^-0-9.e]/, ""
 check "roll of the first channel, $first" awk -v v="$first" 'BEGIN { exit !(v > -4 && v < 4) }'
 check "roll of the second channel, $second" awk -v v="$second" 'BEGIN { exit !(v > 116 && v < 124) }'
 # Not divided, the channels are compared within the strips all the same.
-value_of() { awk -v s="\"$1\"" '/"source":/ { found = index($0, s) } found && /"value":/ { gsub(/[^-0-9.e]/, "", $2); print $2 }' "$2"; }
 expect 3 "boresight roll of channel 1 against channel 0 differs by*and no parameters of one system" \
   calibrate "${strips[@]}" "${flight[@]}" -output one.json
 cp out.txt one.txt
@@ -67,7 +68,8 @@ for k in 3 4 5; do
     /^end_header/ { body = 1 } { print }' channels.ply >ids$k.ply
 done
 expect 3 "scanner2_boresight_roll: boresight roll of scanner 2 against scanner 1 differs by 1[12]" \
-  calibrate ids[345].ply "${flight[@]}" -output ids.json
+  calibrate ids[345].ply "${flight[@]}" -output one_ids.json
+check "difference of the scanners" awk -v v="$(value_of scanner2_boresight_roll one_ids.json)" 'BEGIN { exit !(v > 117 && v < 123) }'
 expect 0 converged calibrate ids[345].ply "${flight[@]}" -systems a=30,40,50 b=31,41,51 -own boresight -output ids.json
 read -r first second < <(awk '/"boresight_roll"/ { getline; gsub(/[^-0-9.e]/, "", $2); printf "%s ", $2 }' ids.json |
   awk '{ print $2, $3 }')

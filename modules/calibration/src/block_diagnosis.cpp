@@ -67,6 +67,26 @@ void diagnoseAngles(const SurveyBlock& block, const BlockEstimate& estimate,
                   settings.shared_errors.position, result);
 }
 
+/// Differences of sessions, channels and scanners. Where one is supported, the pairs are weighed
+/// with it.
+void diagnoseGroups(const SurveyBlock& block, std::size_t strips, const ScanGeometry& edge,
+                    const BlockEstimate& estimate, CalibrationResult& result) {
+  if (block.compared.empty()) return;
+  const std::size_t before = result.diagnosis.size();
+  const ParameterChoice& choice = estimate.solution.choice;
+  Adjustment adjustment = estimate.solution.adjustment;
+  addGroupDifferences(block.compared, strips, edge, choice, adjustment, result.diagnosis);
+  const bool any = std::any_of(result.diagnosis.begin() + static_cast<std::ptrdiff_t>(before),
+                               result.diagnosis.end(), [](const ErrorFinding& finding) {
+                                 return finding.determined && finding.probability > kSupported;
+                               });
+  if (!any || !weighWithDifferences(block.compared, choice, estimate.pairs.observations,
+                                    block.settings().threads, adjustment))
+    return;
+  result.diagnosis.resize(before);
+  addGroupDifferences(block.compared, strips, edge, choice, adjustment, result.diagnosis);
+}
+
 }  // namespace
 
 SharedErrorModel errorModelOf(const SurveyBlock& block, const BlockSolution& solution) {
@@ -84,9 +104,7 @@ std::optional<JumpSearch::Place> diagnoseParts(const AreaSample& sample,
   const std::vector<JumpSearch::Strip> strips = correctedPasses(block);
   std::optional<JumpSearch::Place> jump = addJump(strips, estimate, result);
   const std::size_t before = result.diagnosis.size();
-  if (!block.compared.empty())
-    addGroupDifferences(block.compared, strips.size(), edge, estimate.solution.choice,
-                        estimate.solution.adjustment, result.diagnosis);
+  diagnoseGroups(block, strips.size(), edge, estimate, result);
   judgeDifferences(before, block.settings().shared_errors.position, Hint::none, result);
   diagnoseFields(sample, estimate, edge, result);
   diagnoseAngles(block, estimate, edge, result);

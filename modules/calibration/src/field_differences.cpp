@@ -6,34 +6,8 @@
 #include <set>
 
 #include "group_differences.h"
-#include "pair_weights.h"
 
 namespace pcl_als {
-namespace {
-
-/// Estimates the differences of all values at once, for the weights of the observations.
-bool weighJointly(const std::vector<AreaObservations>& observations,
-                  const std::vector<SystemParameter>& estimate, int threads,
-                  Adjustment& adjustment) {
-  constexpr int kWeightings = 3;
-  PairWeights weights;
-  AdjustmentSolution solution = adjustment.unsolved(SystemVector::Zero());
-  for (int i = 0; i < kWeightings; ++i) {
-    PairWeights::Residuals residuals(observations.size());
-    for (std::size_t area = 0; area < observations.size(); ++area)
-      for (const PairObservation& o : observations[area])
-        residuals[area].emplace_back(o, adjustment.residual(o, solution));
-    weights.findScales(residuals, threads);
-    weights.update(residuals, i > 0, threads);
-    adjustment.accumulate(observations, weights.weights());
-    solution = adjustment.solve(estimate, SystemVector::Zero());
-    if (!solution.solved) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
 FieldDivision FieldDivision::of(PointField field, const ValueCounts& counts) {
   constexpr std::size_t kMaximumParts = 16;  // parts of one instrument
   // An oscillating mirror measures half of its points in each direction.
@@ -98,24 +72,16 @@ std::vector<ErrorFinding> fieldDifferences(const FieldDivision& division,
   const std::vector<std::vector<TimeSpan>> observed = observedTimes(observations, spans.size());
   SharedErrors errors(spans, withKnotsFor(block.model, observed), observed,
                       division.systems(block.spans.size()));
-  const auto set_own = [&](bool own) {
-    for (int system = 1; system < errors.systems().count; ++system)
-      for (const DifferenceUnknown& u : differenceUnknowns(false))
-        errors.setOwn(system, u.index, own ? u.slab : 0.0);
-  };
-  set_own(true);
   Adjustment adjustment(errors, block.threads);
-  adjustment.setVarianceFactors(block.levels);
-  std::vector<ErrorFinding> findings;
-  if (!weighJointly(observations, block.estimate, block.threads, adjustment)) return findings;
-  set_own(false);
-  adjustment.setErrors(errors);
   adjustment.setVarianceFactors(block.levels);
   ParameterChoice choice;
   choice.estimate = block.estimate;
   choice.solution = adjustment.unsolved(SystemVector::Zero());
   std::vector<StripGroup> groups;
   for (std::size_t k = 0; k < division.parts(); ++k) groups.push_back({division.nameOf(k), {}});
+  std::vector<ErrorFinding> findings;
+  if (!weighWithDifferences(groups, choice, observations, block.threads, adjustment))
+    return findings;
   std::set<int> strips;
   for (const AreaObservations& area : observations)
     for (const PairObservation& o : area) strips.insert(o.b / errors.systems().count);

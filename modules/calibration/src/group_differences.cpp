@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "error_diagnosis.h"
+#include "pair_weights.h"
 
 namespace pcl_als {
 namespace {
@@ -112,6 +113,10 @@ SpikeAndSlab mixtureOf(const std::vector<DifferenceUnknown>& unknowns,
   return {priors, mean, covariance, certainty};
 }
 
+bool isSession(const StripGroup& group) {
+  return group.name.find("session") != std::string::npos;
+}
+
 }  // namespace
 
 std::vector<DifferenceUnknown> differenceUnknowns(bool offsets) {
@@ -167,14 +172,43 @@ std::vector<StripGroup> comparedGroups(const std::vector<std::string>& ids,
   return groups;
 }
 
+bool weighWithDifferences(const std::vector<StripGroup>& groups, const ParameterChoice& choice,
+                          const std::vector<AreaObservations>& observations, int threads,
+                          Adjustment& adjustment) {
+  constexpr int kWeightings = 3;
+  const SharedErrors common = adjustment.errors();
+  const VarianceFactors levels = adjustment.levels();
+  SharedErrors errors = common;
+  for (std::size_t k = 1; k < groups.size(); ++k)
+    for (const DifferenceUnknown& u : differenceUnknowns(isSession(groups[k])))
+      errors.setOwn(static_cast<int>(k), u.index, u.slab);
+  adjustment.setErrors(errors);
+  adjustment.setVarianceFactors(levels);
+  PairWeights weights;
+  AdjustmentSolution solution = choice.solution;
+  for (int i = 0; i < kWeightings; ++i) {
+    PairWeights::Residuals residuals(observations.size());
+    for (std::size_t area = 0; area < observations.size(); ++area)
+      for (const PairObservation& o : observations[area])
+        residuals[area].emplace_back(o, adjustment.residual(o, solution) - o.offset);
+    weights.findScales(residuals, threads);
+    weights.update(residuals, i > 0, threads);
+    adjustment.accumulate(observations, weights.weights());
+    solution = adjustment.solve(choice.estimate, choice.solution.biases);
+    if (!solution.solved) return false;
+  }
+  adjustment.setErrors(common);
+  adjustment.setVarianceFactors(levels);
+  return true;
+}
+
 void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t strips,
                          const ScanGeometry& edge, const ParameterChoice& choice,
                          const Adjustment& adjustment, std::vector<ErrorFinding>& diagnosis) {
   const double freedom = std::max(
       1.0, kPriorFreedom + static_cast<double>(strips) - static_cast<double>(groups.size()));
   for (std::size_t k = 1; k < groups.size(); ++k) {
-    const bool session = groups[k].name.find("session") != std::string::npos;
-    const std::vector<DifferenceUnknown> unknowns = differenceUnknowns(session);
+    const std::vector<DifferenceUnknown> unknowns = differenceUnknowns(isSession(groups[k]));
     const int system = static_cast<int>(k);
     SharedErrors errors = adjustment.errors();
     for (const DifferenceUnknown& u : unknowns) errors.setOwn(system, u.index, u.slab);

@@ -51,6 +51,21 @@ std::vector<StripGroup> comparedGroups(const std::vector<std::string>& ids,
                                        const std::vector<TimeSpan>& times,
                                        const std::vector<int>& passes);
 
+/** \brief Weighs the pairs of an adjustment with the differences of the groups after the first to
+ * the first one as unknowns.
+ *
+ * Under common parameters the pairs of a group that differs are outliers, most of all those that
+ * show the difference best; robust weights then make it smaller than it is.
+ *
+ * \param choice the parameters that are estimated, and the solution from which the first weights
+ * follow
+ * \param adjustment whose systems are the groups; gets the weights, and keeps its unknowns
+ * \return false if an adjustment could not be solved
+ */
+bool weighWithDifferences(const std::vector<StripGroup>& groups, const ParameterChoice& choice,
+                          const std::vector<AreaObservations>& observations, int threads,
+                          Adjustment& adjustment);
+
 /** \brief Adds to the diagnosis how probable differences of the groups after the first to the first
  * one are: of boresight, range bias and scan angle scale, and between sessions of the coordinates
  * (base station, datum, geoid).
