@@ -19,6 +19,16 @@ function(_pcl_als_install_headers)
   set_property(GLOBAL APPEND PROPERTY PCL_ALS_HEADER_FOLDERS ${CMAKE_CURRENT_SOURCE_DIR})
 endfunction()
 
+# Six sources of a target are compiled together, those in a list on their own.
+function(_pcl_als_unity_build target separate)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PCL_ALS_UNITY_BUILD}
+    UNITY_BUILD_BATCH_SIZE 6)
+  if(PCL_ALS_UNITY_BUILD)  # sources are then headers to the compiler, which expects other names there
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+  set_source_files_properties(${separate} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # als_add_module(NAME io SOURCES src/a.cpp … [MODULES common …] [PUBLIC …] [PRIVATE …] [DEFINITIONS …]
 #   [SEPARATE src/a.cpp …])
 #   MODULES  modules this one may include (checked by tests/architecture)
@@ -46,12 +56,7 @@ function(als_add_module)
     set(ARG_PRECOMPILED library)
   endif()
   als_precompile(${target} ${ARG_PRECOMPILED})
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PCL_ALS_UNITY_BUILD}
-    UNITY_BUILD_BATCH_SIZE 6)
-  if(PCL_ALS_UNITY_BUILD)  # sources are then headers to the compiler, which expects other names there
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-  endif()
-  set_source_files_properties(${ARG_SEPARATE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  _pcl_als_unity_build(${target} "${ARG_SEPARATE}")
   # Installed libraries find each other wherever the prefix is moved to.
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${ARG_NAME} INSTALL_RPATH "$ORIGIN"
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
@@ -125,6 +130,38 @@ function(als_add_app)
     set(ARG_MANUAL README.md)
   endif()
   _pcl_als_man_page(${target} pcl_als_${ARG_VERB} share/doc/${ARG_MANUAL})
+endfunction()
+
+# als_add_tests(NAME io_tests SOURCES test_a.cpp … [MODULES …] [PRIVATE …] [INCLUDES …] [DEFINITIONS …]
+#   [SEPARATE test_a.cpp …]): a GoogleTest program
+# For each source test_a.cpp, ctest has a test test_a, which runs the tests of this source; further
+# sources are compiled with them.
+#   INCLUDES  folders of the project besides tests/support
+#   SEPARATE  of the sources those that are compiled on their own, because they have names of others
+function(als_add_tests)
+  cmake_parse_arguments(ARG "" "NAME" "SOURCES;SEPARATE;MODULES;PRIVATE;INCLUDES;DEFINITIONS" ${ARGN})
+  _pcl_als_check_arguments(als_add_tests "${ARG_UNPARSED_ARGUMENTS}")
+  add_executable(${ARG_NAME} ${ARG_SOURCES})
+  list(TRANSFORM ARG_MODULES PREPEND pcl_als::)
+  list(TRANSFORM ARG_INCLUDES PREPEND ${PROJECT_SOURCE_DIR}/)
+  target_link_libraries(${ARG_NAME} PRIVATE ${ARG_MODULES} ${ARG_PRIVATE} pcl_als_test_main)
+  target_include_directories(${ARG_NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support ${ARG_INCLUDES})
+  target_compile_options(${ARG_NAME} PRIVATE ${PCL_ALS_TEST_OPTIONS})
+  als_precompile(${ARG_NAME} test)
+  _pcl_als_unity_build(${ARG_NAME} "${ARG_SEPARATE}")
+  target_compile_definitions(${ARG_NAME} PRIVATE ${ARG_DEFINITIONS}
+    PCL_ALS_TEST_SCRATCH="${CMAKE_CURRENT_BINARY_DIR}/scratch"
+    PCL_ALS_TEST_DATA_DEFAULT="${PCL_ALS_TEST_DATA}")
+  foreach(source IN LISTS ARG_SOURCES)
+    cmake_path(GET source STEM test)
+    if(NOT test MATCHES "^test_")
+      continue()
+    endif()
+    add_test(NAME ${test} COMMAND ${ARG_NAME} ${test})
+    if(NOT test IN_LIST PCL_ALS_LONG_TESTS)
+      set_tests_properties(${test} PROPERTIES LABELS fast)
+    endif()
+  endforeach()
 endfunction()
 
 # als_add_test(NAME test_tin SOURCES … [MODULES …] [PRIVATE …]): a GoogleTest program of one module

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+//
+// PROGRAM [SOURCE] [options of GoogleTest]: runs the tests of a program, or those of one of its
+// sources:
+//   io_tests test_control
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+/// Calls a function with every test of the program.
+template <typename Function>
+void forEachTest(Function function) {
+  const testing::UnitTest& program = *testing::UnitTest::GetInstance();
+  for (int i = 0; i < program.total_test_suite_count(); ++i) {
+    const testing::TestSuite& suite = *program.GetTestSuite(i);
+    for (int k = 0; k < suite.total_test_count(); ++k) function(*suite.GetTestInfo(k));
+  }
+}
+
+/// A test of another file than test_X.cpp, which no test of ctest would run; empty if there is
+/// none.
+std::string misplacedTest() {
+  std::string found;
+  forEachTest([&](const testing::TestInfo& test) {
+    const std::filesystem::path file = std::filesystem::path(test.file()).filename();
+    if (file.extension() == ".cpp" && file.string().rfind("test_", 0) == 0) return;
+    found = std::string(test.test_suite_name()) + '.' + test.name() + " is in " + file.string();
+  });
+  return found;
+}
+
+/// The filter that selects the tests of a source, which is given without folder and extension.
+std::string filterOf(const std::string& source) {
+  std::string filter;
+  forEachTest([&](const testing::TestInfo& test) {
+    if (std::filesystem::path(test.file()).stem() != source) return;
+    if (!filter.empty()) filter += ':';
+    filter += std::string(test.test_suite_name()) + '.' + test.name();
+  });
+  return filter;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  const std::string misplaced = misplacedTest();
+  if (!misplaced.empty()) {
+    std::fprintf(stderr, "%s; tests belong into sources test_X.cpp\n", misplaced.c_str());
+    return 1;
+  }
+  if (argc > 2) {
+    std::fprintf(stderr, "usage: %s [SOURCE] [options of GoogleTest]\n", argv[0]);
+    return 1;
+  }
+  if (argc == 2) {
+    const std::string filter = filterOf(argv[1]);
+    if (filter.empty()) {
+      std::fprintf(stderr, "%s: no test is in a source %s\n", argv[0], argv[1]);
+      return 1;
+    }
+    GTEST_FLAG_SET(filter, filter);
+  }
+  return RUN_ALL_TESTS();
+}
