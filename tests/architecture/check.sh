@@ -29,20 +29,25 @@ declare -A may=(
   [python]="common io survey trajectory registration calibration radiometry filters quality classification photogrammetry simulation processing report"
 )
 
-# The modules that X declares in its CMakeLists.txt: the words after MODULES. Further libraries of a
-# module (io_raster, survey_coverage, report_page) are part of it.
-declared() {
-  awk '{ sub(/#.*/, ""); gsub(/[()]/, " & ");
-         for (i = 1; i <= NF; ++i) {
-           if ($i ~ /^[A-Z]+$/ || $i == ")") on = ($i == "MODULES");
-           else if (on) print $i } }' "modules/${1%_@(raster|picture|page|coverage|simulation|bundle|dense)}/CMakeLists.txt"
-}
+# The module of a library: further libraries of a module (io_raster, survey_coverage, report_page) are part of it.
+module_of() { module=${1%_@(raster|picture|page|coverage|simulation|bundle|dense)}; }
+
+# What a module declares in its CMakeLists.txt: the words after MODULES.
+declare -A declared
+while IFS=$'\t' read -r module other; do declared[$module]+=" $other"; done < <(awk '
+  FNR == 1 { on = 0; split(FILENAME, folder, "/") }
+  { sub(/#.*/, ""); gsub(/[()]/, " & ")
+    for (i = 1; i <= NF; ++i) {
+      if ($i ~ /^[A-Z]+$/ || $i == ")") on = ($i == "MODULES")
+      else if (on) print folder[2] "\t" $i } }' modules/*/CMakeLists.txt)
 declare -A reach
 closure() {  # X and all that it declares, directly or through others
   [[ -n ${reach[$1]:-} ]] && return
-  local all=" $1 ${1%_@(raster|picture|page|coverage|simulation|bundle|dense)} " next
+  local module next
+  module_of "$1"
+  local all=" $1 $module "
   reach[$1]=$all  # a cycle of declarations ends here and is reported as a breach
-  for next in $(declared "$1"); do
+  for next in ${declared[$module]:-}; do
     closure "$next"
     all+="${reach[$next]} "
   done
@@ -57,43 +62,47 @@ sources() { find "$@" \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \); }
 each() { sort | tr '\n' '\0' | xargs -0 -r awk "$1"; }
 
 for folder in modules/*/; do
-  module=$(basename -- "$folder")
-  [[ -v "may[$module]" ]] || { breach "modules/$module" "unknown module: add it to $0"; continue; }
-  for other in $(declared "$module"); do
-    [[ " $module ${may[$module]} " == *" ${other%_@(raster|picture|page|coverage|simulation|bundle|dense)} "* ]] ||
-      breach "modules/$module/CMakeLists.txt" "must not use module $other"
+  name=${folder#modules/} name=${name%/}
+  [[ -v "may[$name]" ]] || { breach "modules/$name" "unknown module: add it to $0"; continue; }
+  for other in ${declared[$name]:-}; do
+    module_of "$other"
+    [[ " $name ${may[$name]} " == *" $module "* ]] ||
+      breach "modules/$name/CMakeLists.txt" "must not use module $other"
   done
-  grep -qE 'pcl_als::|pcl_als_app|pcl_visualization|VTK::' "modules/$module/CMakeLists.txt" &&
-    [[ $module != visualization ]] &&
-    breach "modules/$module/CMakeLists.txt" "links a module, a tool or VTK without MODULES"
-  closure "$module"
-  while IFS=$'\t' read -r file target; do
-    case $target in
-      "<pcl_als/"*)
-        used=${target#<pcl_als/}
-        [[ ${reach[$module]} == *" ${used%%/*} "* ]] ||
-          breach "$file" "includes $target, but $module does not declare module ${used%%/*}"
-        [[ $used != simulation/* || $module == simulation || $file == */simulated_@(survey|images).* ]] ||
-          breach "$file" "includes $target: only the writers of simulated surveys use module simulation"
-        [[ $module != calibration || $used != las/* ]] ||
-          breach "$file" "includes $target: module $module reads points through module survey" ;;
-      *'../'*) breach "$file" "includes $target across folders" ;;
-      \"*)
-        [[ -e ${file%/*}/${target//\"/} ]] ||
-          breach "$file" "includes $target, which is not beside it" ;;
-      "<vtk"* | "<pcl/visualization/"*)
-        [[ $module == visualization ]] || breach "$file" "includes $target: only visualization uses VTK" ;;
-      "<boost/mpi"* | "<mpi.h>")
-        [[ $module == mpi ]] || breach "$file" "includes $target: only module mpi uses MPI" ;;
-      "<gtest/"*) breach "$file" "includes $target in a library" ;;
-    esac
-  done < <(sources "$folder" | each '
-    match($0, /^[ \t]*#[ \t]*include[ \t]*(<[^>]*>|"[^"]*")/) {
-      target = substr($0, RSTART, RLENGTH)
-      sub(/^[^<"]*/, "", target)
-      print FILENAME "\t" target }')
-  [[ -e modules/$module/README.md ]] || breach "modules/$module" "has no README.md"
+  closure "$name"
+  [[ -e modules/$name/README.md ]] || breach "modules/$name" "has no README.md"
 done
+while IFS= read -r file; do
+  [[ $file == modules/visualization/* ]] || breach "$file" "links a module, a tool or VTK without MODULES"
+done < <(grep -lE 'pcl_als::|pcl_als_app|pcl_visualization|VTK::' modules/*/CMakeLists.txt)
+
+while IFS=$'\t' read -r file target; do
+  module=${file#modules/} module=${module%%/*}
+  [[ -v "reach[$module]" ]] || continue
+  case $target in
+    "<pcl_als/"*)
+      used=${target#<pcl_als/}
+      [[ ${reach[$module]} == *" ${used%%/*} "* ]] ||
+        breach "$file" "includes $target, but $module does not declare module ${used%%/*}"
+      [[ $used != simulation/* || $module == simulation || $file == */simulated_@(survey|images).* ]] ||
+        breach "$file" "includes $target: only the writers of simulated surveys use module simulation"
+      [[ $module != calibration || $used != las/* ]] ||
+        breach "$file" "includes $target: module $module reads points through module survey" ;;
+    *'../'*) breach "$file" "includes $target across folders" ;;
+    \"*)
+      [[ -e ${file%/*}/${target//\"/} ]] ||
+        breach "$file" "includes $target, which is not beside it" ;;
+    "<vtk"* | "<pcl/visualization/"*)
+      [[ $module == visualization ]] || breach "$file" "includes $target: only visualization uses VTK" ;;
+    "<boost/mpi"* | "<mpi.h>")
+      [[ $module == mpi ]] || breach "$file" "includes $target: only module mpi uses MPI" ;;
+    "<gtest/"*) breach "$file" "includes $target in a library" ;;
+  esac
+done < <(sources modules | each '
+  match($0, /^[ \t]*#[ \t]*include[ \t]*(<[^>]*>|"[^"]*")/) {
+    target = substr($0, RSTART, RLENGTH)
+    sub(/^[^<"]*/, "", target)
+    print FILENAME "\t" target }')
 
 # Only the display of progress is meant to print.
 while IFS= read -r place; do
@@ -173,13 +182,19 @@ if [[ -e share/GLOSSARY.md ]] && grep -B1 -E '^\|[-|]+\|$' share/GLOSSARY.md | g
   breach share/GLOSSARY.md "has a table without term, symbol, unit, definition and where used"
 fi
 
-# Every module page has the same sections, and lines of text in Markdown have less than 100
-# characters (tables may be wider).
-for page in modules/*/README.md; do
-  for section in Purpose Usage Method Limits Constants; do
-    grep -qx "## $section" "$page" || breach "$page" "has no section $section"
-  done
-done
+# Every module page has the same sections.
+while IFS=$'\t' read -r page section; do
+  breach "$page" "has no section $section"
+done < <(find modules -maxdepth 2 -name README.md | each '
+  /^## / { has[FILENAME, $0] = 1 }
+  END {
+    count = split("Purpose Usage Method Limits Constants", sections, " ")
+    for (a = 1; a < ARGC; ++a)
+      for (i = 1; i <= count; ++i)
+        if (!((ARGV[a], "## " sections[i]) in has)) print ARGV[a] "\t" sections[i]
+  }')
+
+# Lines of text in Markdown have less than 100 characters (tables may be wider).
 while IFS= read -r place; do
   breach "$place" "has 100 characters or more"
 done < <(find . -name '*.md' -not -path './.git/*' -not -path './build*' \

@@ -35,24 +35,29 @@ with_dependencies() {
   printf '%s ' "${!seen[@]}"
 }
 
-listed=" $(with_dependencies "${pcl_als_packages_build[@]%%:*}" "${pcl_als_packages_test[@]%%:*}")"
-declare -A verdict  # by program: the package that lacks in the lists, or nothing
-missing_package() {
-  local path package
-  path=$(readlink -f -- "$(type -P "$1")")
-  package=$(dpkg-query -S "$path" "/usr$path" "${path#/usr}" 2>/dev/null | head -n 1 | cut -d: -f1) || true
-  [[ -n $package && $listed != *" $package "* ]] || return 0
-  [[ $(dpkg-query -W -f '${Essential}' "$package") == yes ]] || echo "$package"
-}
-breaches=0
-while IFS=$'\t' read -r script program; do
-  [[ $(type -t "$program") == file ]] || continue
-  [[ -v "verdict[$program]" ]] || verdict[$program]=$(missing_package "$program")
-  [[ -n ${verdict[$program]} ]] || continue
-  grep -qE "(command -v|type -P) $program\b" "$script" && continue
-  echo "$script: calls $program of ${verdict[$program]}, which share/packages.sh does not list"
-  breaches=$((breaches + 1))
-done < <(find share/demo share/packages.sh share/doc tests .ci -type f \( -name '*.sh' -o -name run \) \
+mapfile -t calls < <(find share/demo share/packages.sh share/doc tests .ci -type f \( -name '*.sh' -o -name run \) \
   -not -path 'tests/benchmarks/*' -not -path 'tests/mpi/*' -exec bash -c "$(declare -f called)"'; called "$@"' bash {} +)
+declare -A file=()  # by program; without those of the shell and of other machines
+for program in $(printf '%s\n' "${calls[@]#*$'\t'}" | sort -u); do
+  [[ $(type -t "$program") != file ]] || file[$program]=$(readlink -f -- "$(type -P "$program")")
+done
+# A search reads the lists of all packages, so there is one for all files. Older packages have their
+# files in /bin, which is a link to /usr/bin.
+declare -A package=()  # by file, without /usr
+while IFS=$'\t' read -r name path; do package[${path#/usr}]=$name; done < <(
+  dpkg-query -S "${file[@]}" "${file[@]#/usr}" 2>/dev/null | sed -nE 's/^([^ :,]+)[^ ]*: (.*)$/\1\t\2/p')
+listed=" $(with_dependencies "${pcl_als_packages_build[@]%%:*}" "${pcl_als_packages_test[@]%%:*}")"
+listed+=" $(dpkg-query -W -f '${Essential} ${Package}\n' | sed -n 's/^yes //p' | tr '\n' ' ')"
+breaches=0
+for call in "${calls[@]}"; do
+  script=${call%%$'\t'*} program=${call#*$'\t'}
+  [[ -v "file[$program]" ]] || continue
+  path=${file[$program]#/usr}
+  name=${package[$path]:-}
+  [[ -n $name && $listed != *" $name "* ]] || continue
+  grep -qE "(command -v|type -P) $program\b" "$script" && continue
+  echo "$script: calls $program of $name, which share/packages.sh does not list"
+  breaches=$((breaches + 1))
+done
 ((breaches == 0)) || exit 1
-echo "${#verdict[@]} programs are in every Debian or in share/packages.sh."
+echo "${#file[@]} programs are in every Debian or in share/packages.sh."
