@@ -26,6 +26,29 @@ texts() {  # VERB: the name and the text of every option, as -h prints them
     on && NF { sub(/^ +/, ""); text = text (text == "" ? "" : " ") $0 }
     END { print name "\t" text }'
 }
+# wrong_texts NAMES PAGE TEXTS: options without a text, with one that speaks of an option that is not among the
+# names, and with another one on the manual page.
+wrong_texts() {
+  awk -F'\t' '
+    FILENAME == ARGV[1] { known["-" $1] = 1; next }
+    FILENAME == ARGV[2] {
+      if (sub(/^\.B \\-/, "")) { name = "--" $0; sub(/ .*/, "", name) }
+      else if (/^\./) name = ""
+      else if (name != "") {
+        sub(/\\&/, ""); gsub(/\\-/, "-"); gsub(/\\e/, "\\")
+        shown[name] = shown[name] $0
+      }
+      next
+    }
+    $2 == "" { print $1 " has no text" }
+    shown[$1] != $2 { print "the manual page has \047" shown[$1] "\047 for " $1 ", not \047" $2 "\047" }
+    {
+      for (rest = " " $2; match(rest, /[ (,;]-[a-z][a-z_]*/); rest = substr(rest, RSTART + RLENGTH)) {
+        other = substr(rest, RSTART + 1, RLENGTH - 1)
+        if (!(other in known)) print $1 " speaks of " other
+      }
+    }' "$@"
+}
 man_page=$here/../../share/cmake/man_page.awk
 for tool in "$bin"/pcl_als_*; do
   verb=${tool##*/pcl_als_}
@@ -33,15 +56,7 @@ for tool in "$bin"/pcl_als_*; do
   "$tool" -h | awk -v tool="pcl_als_$verb" -v version=1 -v manual=page -f "$man_page" >page.1
   "$tool" -list_options | awk -F'\t' 'NR > 1 && $1 != "IN" && $1 != "OUT" { print $1 } END { print "h" }' >names.txt
   checks=$((checks + 1))
-  while IFS=$'\t' read -r name text; do
-    [[ -n $text ]] || failed "pcl_als_$verb -h: $name has no text"
-    for other in $(grep -oE "(^|[ (,;])-[a-z][a-z_]*" <<<"$text" | tr -d ' (,;'); do
-      grep -qx -- "${other#-}" names.txt || failed "pcl_als_$verb -h: $name speaks of $other"
-    done
-    shown=$(awk -v name="\\\\-${name#--}" '$1 == ".B" { on = $2 == name; next } /^\./ { on = 0 } on' page.1 |
-      sed 's/\\&//; s/\\-/-/g; s/\\e/\\/g')
-    [[ $shown == "$text" ]] || failed "pcl_als_$verb: the manual page has '$shown' for $name, not '$text'"
-  done <texts.txt
+  while IFS= read -r wrong; do failed "pcl_als_$verb: $wrong"; done < <(wrong_texts names.txt page.1 texts.txt)
   [[ $(($(wc -l <texts.txt) + 1)) == $(wc -l <names.txt) ]] || failed "pcl_als_$verb: -h and -list_options differ"
 done
 
