@@ -37,7 +37,7 @@ std::vector<LidarReturn> sampled(unsigned seed, double from, double to,
   return points;
 }
 
-Trajectory flight() {
+Trajectory flightNorth() {
   std::vector<TrajectorySample> samples;
   for (int i = 0; i <= 200; ++i) {
     TrajectorySample sample;
@@ -48,14 +48,14 @@ Trajectory flight() {
   return Trajectory(samples);
 }
 
-const SurveyArea kArea{{0.0, 0.0}, 50.0, 8.0};
+const SurveyArea kMatchedArea{{0.0, 0.0}, 50.0, 8.0};
 
 AreaMatcher matcherOf(const std::vector<LidarReturn>& a, const std::vector<LidarReturn>& b,
                       std::size_t candidates = 500) {
-  AreaMatcher matcher(kArea, 2);
+  AreaMatcher matcher(kMatchedArea, 2);
   for (const LidarReturn& p : a) matcher.add(0, p);
   for (const LidarReturn& p : b) matcher.add(1, p);
-  matcher.prepare(SurfaceCriterion(), candidates, 0.001, flight());
+  matcher.prepare(SurfaceCriterion(), candidates, 0.001, flightNorth());
   return matcher;
 }
 
@@ -74,7 +74,7 @@ TEST(SurfacePoint, LeavesOutWhatIsNoSurface) {
 }
 
 TEST(AreaMatcher, MeasuresAVerticalShiftInBothDirections) {
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   const auto a = sampled(1, -8.0, 58.0, {0, 0, 0}), b = sampled(2, -8.0, 58.0, {0, 0, -0.05});
   const AreaMatcher matcher = matcherOf(a, b);
   const AreaObservations found = matcher.match({{0, 1}}, 0.5, trajectory, NoiseModel());
@@ -99,7 +99,7 @@ TEST(AreaMatcher, PairsOfOneSlopeHaveOneDirection) {
   auto a = sampled(1, -8.0, 58.0, {0, 0, 0}), b = sampled(2, -8.0, 58.0, {0, 0, 0});
   for (auto* strip : {&a, &b})
     for (LidarReturn& p : *strip) p.position.z() = 100.0 + 0.04 * p.position.x() + noise(random);
-  const AreaObservations found = matcherOf(a, b).match({{0, 1}}, 0.5, flight(), NoiseModel());
+  const AreaObservations found = matcherOf(a, b).match({{0, 1}}, 0.5, flightNorth(), NoiseModel());
   ASSERT_GT(found.size(), 500U);
   for (const PairObservation& o : found) EXPECT_NEAR(o.normal.x(), -0.04, 0.01);
 }
@@ -108,9 +108,9 @@ TEST(AreaMatcher, PairsOfOneSlopeHaveOneDirection) {
 // cm^2 and the square sum of three weights (1/3 to 1) of 1 cm^2, along beams within 3 degrees of
 // the vertical.
 TEST(AreaMatcher, AddsTheNoiseOfEchoes) {
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   const auto a = sampled(1, -8.0, 58.0, {0, 0, 0}), b = sampled(2, -8.0, 58.0, {0, 0, -0.05});
-  AreaMatcher matcher(kArea, 2);
+  AreaMatcher matcher(kMatchedArea, 2);
   for (const LidarReturn& p : a) matcher.add(0, p, 0.03F);
   for (const LidarReturn& p : b) matcher.add(1, p, 0.01F);
   matcher.prepare(SurfaceCriterion(), 500, 0.001, trajectory);
@@ -128,7 +128,7 @@ TEST(AreaMatcher, AddsTheNoiseOfEchoes) {
 }
 
 TEST(AreaMatcher, DividesPairsByDistance) {
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   const auto a = sampled(1, -8.0, 58.0, {0, 0, 0});
   auto b = sampled(2, -8.0, 58.0, {0, 0, -0.05});
   for (LidarReturn& p : b)
@@ -152,7 +152,7 @@ TEST(AreaMatcher, DividesPairsByDistance) {
 
 /// One point in four has three others within centimetres, as along the lines of a rosette.
 TEST(AreaMatcher, EvensOutDensePoints) {
-  AreaMatcher matcher(kArea, 1);
+  AreaMatcher matcher(kMatchedArea, 1);
   const std::vector<LidarReturn> single = sampled(8, -8.0, 58.0, {0, 0, 0});
   for (std::size_t i = 0; i < single.size(); ++i) {
     for (int k = 0; k < (i % 4 == 0 ? 4 : 1); ++k) {
@@ -167,12 +167,12 @@ TEST(AreaMatcher, EvensOutDensePoints) {
   const double kept = static_cast<double>(matcher.pointCount()) / static_cast<double>(before);
   EXPECT_GT(kept, 0.40);
   EXPECT_LT(kept, 0.60);
-  matcher.prepare(SurfaceCriterion(), 500, 0.001, flight());
+  matcher.prepare(SurfaceCriterion(), 500, 0.001, flightNorth());
   EXPECT_GT(matcher.surfaceOf(0).tin().triangles().size(), matcher.pointCount());
 }
 
 TEST(AreaMatcher, KeepsAwayFromEavesAndRidges) {
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   const auto a = sampled(3, -8.0, 58.0, {0, 0, 0}), b = sampled(4, -8.0, 58.0, {0.3, 0, 0});
   const AreaMatcher matcher = matcherOf(a, b);
   std::size_t roof = 0;
@@ -185,7 +185,7 @@ TEST(AreaMatcher, KeepsAwayFromEavesAndRidges) {
 }
 
 TEST(AreaMatcher, TakesNothingFromTrees) {
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> crown(0.0, 8.0);
   auto a = sampled(6, -8.0, 58.0, {0, 0, 0}), b = sampled(7, -8.0, 58.0, {0, 0, 0});
@@ -200,7 +200,7 @@ TEST(AreaMatcher, TakesNothingFromTrees) {
 }
 
 TEST(AreaMatcher, AControlPointsErrorIsOneInAllStrips) {
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   const auto a = sampled(1, -8.0, 58.0, {0, 0, 0}), b = sampled(2, -8.0, 58.0, {0, 0, -0.05});
   const AreaMatcher matcher = matcherOf(a, b);
   const std::vector<ControlPoint> control{{"1", {5.0, 45.0, height(5.0, 45.0)}, 0.03}};
@@ -216,7 +216,7 @@ TEST(AreaMatcher, AControlPointsErrorIsOneInAllStrips) {
 }
 
 TEST(AreaMatcher, PatchesAreThoseOfTheWholeTin) {
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   const auto a = sampled(8, -8.0, 58.0, {0, 0, 0}), b = sampled(9, -60.0, 110.0, {0, 0, -0.05});
   const AreaMatcher part = matcherOf(a, b);  // keeps of b what the margin holds
   AreaMatcher whole(SurveyArea{{0.0, 0.0}, 50.0, 60.0}, 2);
@@ -226,7 +226,7 @@ TEST(AreaMatcher, PatchesAreThoseOfTheWholeTin) {
   ASSERT_GT(whole.pointCount(), 2 * part.pointCount());
   const PatchSurface &tin_of_part = part.surfaceOf(1), &tin_of_whole = whole.surfaceOf(1);
   for (const LidarReturn& p : a) {
-    if (!kArea.contains(p.position)) continue;
+    if (!kMatchedArea.contains(p.position)) continue;
     const auto in_part = tin_of_part.closest(p.position, 0.5),
                in_whole = tin_of_whole.closest(p.position, 0.5);
     ASSERT_EQ(in_part.has_value(), in_whole.has_value());
@@ -237,7 +237,7 @@ TEST(AreaMatcher, PatchesAreThoseOfTheWholeTin) {
 }
 
 TEST(AreaMatcher, CorrectsItsPoints) {
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   const auto a = sampled(10, -8.0, 58.0, {0, 0, 0}), b = sampled(11, -8.0, 58.0, {0, 0, 0});
   AreaMatcher matcher = matcherOf(a, b);
   SystemVector biases = SystemVector::Zero();
@@ -260,7 +260,7 @@ AreaObservations pairsOfScanHalves(double first, double second, const Trajectory
 }
 
 TEST(AreaMatcher, MeasuresEachHalfOfAConicalScanner) {
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   const AreaObservations found = pairsOfScanHalves(5.0, 15.0, trajectory);
   std::map<std::pair<int, int>, int> pairs;
   for (const PairObservation& o : found) {
@@ -288,7 +288,7 @@ TEST(AreaMatcher, MeasuresEachHalfOfAConicalScanner) {
 }
 
 TEST(AreaMatcher, KeepsAStripWholeThatIsMeasuredOnce) {
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   for (const double second : {10.2, 5.0}) {  // 10.2: successive lines; 5.0: only ahead
     const double first = second < 10.0 ? 3.0 : 10.0;
     for (const PairObservation& o : pairsOfScanHalves(first, second, trajectory)) {
@@ -301,7 +301,7 @@ TEST(AreaMatcher, KeepsAStripWholeThatIsMeasuredOnce) {
 
 /// Of the second strip all returns are e times as intense, and 5 cm too long.
 TEST(AreaMatcher, RemovesErrorSourcesFromItsPoints) {
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   auto a = sampled(15, -8.0, 58.0, {0, 0, 0}), b = sampled(16, -8.0, 58.0, {0, 0, -0.05});
   for (LidarReturn& p : a) p.intensity = 100.0F;
   for (LidarReturn& p : b) p.intensity = 271.828F;
@@ -339,7 +339,7 @@ MeanDistance meanDistance(unsigned draw) {
   for (auto& strip : strips) {
     for (LidarReturn& p : strip) p.position.z() = 100.0 + noise(random);
   }
-  const Trajectory trajectory = flight();
+  const Trajectory trajectory = flightNorth();
   double sum = 0.0, weights = 0.0, pairs = 0.0;
   for (const PairObservation& o :
        matcherOf(strips[0], strips[1], 1'000'000)

@@ -16,7 +16,7 @@ using simulation::NoiseOptions;
 using simulation::SimulationOptions;
 using test::SimulatedSurvey;
 
-SimulationOptions block(const char* noise, bool vertical, std::uint64_t seed) {
+SimulationOptions noisyBlock(const char* noise, bool vertical, std::uint64_t seed) {
   SimulationOptions options = SimulationOptions::preset("small", 1.0, 0.7);
   options.noise = NoiseOptions::named(noise);
   options.vertical = vertical;
@@ -61,7 +61,7 @@ void expectRecovered(const CalibrationResult& result, const SystemVector& truth,
 }
 
 TEST(BlockCalibration, RecoversEveryBiasFromExactPoints) {
-  SimulationOptions options = block("none", true, 1);
+  SimulationOptions options = noisyBlock("none", true, 1);
   options.bias[indexOf(P::boresight_heading)] = 30.0 * kRadiansPerArcsec;
   const SimulatedSurvey survey(options);
   // 1 mm coordinates and a TIN between points half a metre apart: some millimetres a pair, 10^5
@@ -70,7 +70,7 @@ TEST(BlockCalibration, RecoversEveryBiasFromExactPoints) {
 }
 
 TEST(BlockCalibration, RecoversEveryBiasFromNoisyRanges) {
-  SimulationOptions options = block("range", true, 2);
+  SimulationOptions options = noisyBlock("range", true, 2);
   options.bias[indexOf(P::boresight_heading)] = 30.0 * kRadiansPerArcsec;
   const SimulatedSurvey survey(options);
   // What 2 cm of range noise leaves of a block this small; the full block is held to half of it in
@@ -79,7 +79,7 @@ TEST(BlockCalibration, RecoversEveryBiasFromNoisyRanges) {
 }
 
 TEST(BlockCalibration, IsWithinItsIntervalsUnderTrajectoryErrors) {
-  const SimulatedSurvey survey(block("realistic", false, 3));
+  const SimulatedSurvey survey(noisyBlock("realistic", false, 3));
   const CalibrationResult result = survey.calibrate();
   ASSERT_TRUE(result.converged);
   for (const SystemParameterInfo& info : systemParameters()) {
@@ -93,7 +93,7 @@ TEST(BlockCalibration, IsWithinItsIntervalsUnderTrajectoryErrors) {
 }
 
 TEST(BlockCalibration, MakesStripsAndControlFit) {
-  const SimulatedSurvey survey(block("range", false, 4));
+  const SimulatedSurvey survey(noisyBlock("range", false, 4));
   const CalibrationResult result = survey.calibrate();
   // All pairs that are no further apart than 2.5 RMS are in the histogram: of distances that are
   // uniform or normal at least 98 %, and never more than there are.
@@ -117,7 +117,7 @@ TEST(BlockCalibration, MakesStripsAndControlFit) {
 TEST(BlockCalibration, GivesTheSameAnswerElsewhereOnEarth) {
   // Whether a pair at the limit of acceptance is used may depend on the last digit, which moves the
   // estimates by a thousandth of a standard deviation; in this block no pair is that close.
-  SimulatedSurvey survey(block("range", false, 7));
+  SimulatedSurvey survey(noisyBlock("range", false, 7));
   const CalibrationResult here = survey.calibrate();
   survey.move({583394.0, 5283100.0, 498.0});
   const CalibrationResult there = survey.calibrate();
@@ -128,7 +128,7 @@ TEST(BlockCalibration, GivesTheSameAnswerElsewhereOnEarth) {
 }
 
 TEST(BlockCalibration, DoesNotDependOnTheNumberOfThreads) {
-  const SimulatedSurvey survey(block("range", false, 6));
+  const SimulatedSurvey survey(noisyBlock("range", false, 6));
   CalibrationSettings settings;
   settings.threads = 1;
   const CalibrationResult one = survey.calibrate(settings);
@@ -137,7 +137,7 @@ TEST(BlockCalibration, DoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(BlockCalibration, WithoutControlLeavesTheRangeBiasAlone) {
-  const SimulatedSurvey survey(block("range", true, 7));
+  const SimulatedSurvey survey(noisyBlock("range", true, 7));
   const CalibrationResult result = survey.calibrate(CalibrationSettings(), false);
   EXPECT_EQ(result[P::range_bias].status, ParameterStatus::not_estimable);
   EXPECT_EQ(result[P::range_bias].bias, 0.0);
@@ -147,7 +147,7 @@ TEST(BlockCalibration, WithoutControlLeavesTheRangeBiasAlone) {
 }
 
 TEST(BlockCalibration, OnAPlaneNamesWhatCannotBeDetermined) {
-  SimulationOptions options = block("range", true, 8);
+  SimulationOptions options = noisyBlock("range", true, 8);
   options.scene.relief = options.scene.buildings = options.scene.trees = 0.0;
   const CalibrationResult result = SimulatedSurvey(options).calibrate();
   for (const P p : {P::lever_arm_x, P::lever_arm_y, P::boresight_heading}) {
@@ -162,7 +162,7 @@ TEST(BlockCalibration, OnAPlaneNamesWhatCannotBeDetermined) {
 }
 
 TEST(BlockCalibration, AskedForTheImpossibleSaysSo) {
-  SimulationOptions options = block("range", true, 9);
+  SimulationOptions options = noisyBlock("range", true, 9);
   options.scene.relief = options.scene.buildings = options.scene.trees = 0.0;
   CalibrationSettings settings;
   settings.estimate = {P::boresight_heading, P::lever_arm_y};
@@ -173,7 +173,7 @@ TEST(BlockCalibration, AskedForTheImpossibleSaysSo) {
 }
 
 TEST(BlockCalibration, ConvergesFromHalfADegreeAndAMetre) {
-  SimulationOptions options = block("range", false, 11);
+  SimulationOptions options = noisyBlock("range", false, 11);
   const double angle = 0.5 * kRadiansPerDegree;
   options.bias << 1.0, -1.0, 0.0, angle, -angle, angle, 1.0, 1e-3;
   const SimulatedSurvey survey(options);
@@ -203,7 +203,7 @@ void expectRefused(const SimulatedSurvey& survey, bool rigorous, const std::stri
 }
 
 TEST(BlockCalibration, RefusesATrajectoryOfAnotherFlight) {
-  SimulatedSurvey survey(block("range", true, 10));
+  SimulatedSurvey survey(noisyBlock("range", true, 10));
   for (TrajectorySample& sample : survey.trajectory) sample.time += 90000.0;
   expectRefused(survey, false, "the trajectory covers");
 }
@@ -211,7 +211,7 @@ TEST(BlockCalibration, RefusesATrajectoryOfAnotherFlight) {
 /// What is left of a change of datum that was forgotten.
 TEST(BlockCalibration, RefusesATrajectoryBesideItsPlace) {
   for (const bool rigorous : {false, true}) {
-    SimulatedSurvey survey(block("realistic", false, 10));
+    SimulatedSurvey survey(noisyBlock("realistic", false, 10));
     for (TrajectorySample& sample : survey.trajectory)
       sample.position += Eigen::Vector3d(-120.0, 90.0, 0.0);
     expectRefused(survey, rigorous, "the trajectory lies 1");
@@ -219,7 +219,7 @@ TEST(BlockCalibration, RefusesATrajectoryBesideItsPlace) {
 }
 
 TEST(BlockCalibration, RefusesASingleStripWithoutControl) {
-  SimulatedSurvey survey(block("range", true, 11));
+  SimulatedSurvey survey(noisyBlock("range", true, 11));
   survey.strips.resize(1);
   EXPECT_THROW(survey.calibrate(CalibrationSettings(), false), InputError);
 }

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 
 // Offsets of the coordinates of a whole block from control or from surfaces that are held fixed.
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,6 +9,7 @@
 
 #include "expected_truth.h"
 #include "simulated_survey.h"
+#include "warning_texts.h"
 
 namespace pcl_als {
 namespace {
@@ -18,11 +18,12 @@ using P = SystemParameter;
 using simulation::NoiseOptions;
 using simulation::SimulationOptions;
 using test::expectTruth;
+using test::isWarnedOf;
 using test::SimulatedSurvey;
 
 /// A block of two flying heights without biases; \a errors as of the simulator.
-SimulationOptions block(const std::string& errors, unsigned seed = 1,
-                        const char* preset = "small") {
+SimulationOptions unbiasedBlock(const std::string& errors, unsigned seed = 1,
+                                const char* preset = "small") {
   SimulationOptions options = SimulationOptions::preset(preset, 0.5, 0.3);
   options.noise = NoiseOptions::named("realistic");
   options.bias.setZero();
@@ -31,8 +32,8 @@ SimulationOptions block(const std::string& errors, unsigned seed = 1,
   return options;
 }
 
-CalibrationResult calibrated(const SimulatedSurvey& survey,
-                             const std::vector<std::string>& fixed = {}) {
+CalibrationResult calibratedWithTacticalSystem(const SimulatedSurvey& survey,
+                                               const std::vector<std::string>& fixed = {}) {
   SimulatedSurvey::Request request;
   request.rigorous = true;
   request.settings.shared_errors = SharedErrorModel::ofGrade("tactical");
@@ -48,12 +49,6 @@ ErrorFinding findingOf(const CalibrationResult& result, ErrorSource source) {
   return {};
 }
 
-bool isWarnedOf(const CalibrationResult& result, const std::string& text) {
-  return std::any_of(result.warnings.begin(), result.warnings.end(), [&](const Warning& warning) {
-    return warning.text.find(text) != std::string::npos;
-  });
-}
-
 /// The height offset is corrected with its size, and the parameters that resemble it are zero.
 void expectOffset(const CalibrationResult& result, double truth) {
   const ErrorFinding offset = findingOf(result, ErrorSource::height_offset);
@@ -62,7 +57,7 @@ void expectOffset(const CalibrationResult& result, double truth) {
   EXPECT_LT(offset.std, 0.1);
   expectTruth(result, SystemVector::Zero());
   EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
-  EXPECT_TRUE(isWarnedOf(result, truth < 0.0 ? "m below" : "m above"));
+  EXPECT_TRUE(isWarnedOf(result.warnings, truth < 0.0 ? "m below" : "m above"));
 }
 
 /// The heights of control after the calibration.
@@ -80,7 +75,8 @@ void expectControlFits(const CalibrationResult& result) {
 
 /// range_bias was 0.30 and scan_angle_scale -2.4e-4, both with a probability of 1.
 TEST(BlockOffset, IsNoRangeBias) {
-  const CalibrationResult result = calibrated(SimulatedSurvey(block("offset_z=-0.3")));
+  const CalibrationResult result =
+      calibratedWithTacticalSystem(SimulatedSurvey(unbiasedBlock("offset_z=-0.3")));
   expectOffset(result, -0.3);
   expectControlFits(result);
 }
@@ -89,8 +85,8 @@ TEST(BlockOffset, IsNoRangeBias) {
 /// rejected or not found.
 TEST(BlockOffset, OfMetresIsFound) {
   for (const double truth : {1.5, -6.0}) {
-    const CalibrationResult result =
-        calibrated(SimulatedSurvey(block("offset_z=" + std::to_string(truth))));
+    const CalibrationResult result = calibratedWithTacticalSystem(
+        SimulatedSurvey(unbiasedBlock("offset_z=" + std::to_string(truth))));
     expectOffset(result, truth);
     expectControlFits(result);
   }
@@ -98,10 +94,10 @@ TEST(BlockOffset, OfMetresIsFound) {
 
 /// The same of surfaces that are held fixed.
 TEST(BlockOffset, FromAFixedStrip) {
-  SimulatedSurvey survey(block("offset_z=-0.3"));
-  const SimulatedSurvey correct(block(""));
+  SimulatedSurvey survey(unbiasedBlock("offset_z=-0.3"));
+  const SimulatedSurvey correct(unbiasedBlock(""));
   survey.strips[2] = correct.strips[2];
-  const CalibrationResult result = calibrated(survey, {"3"});
+  const CalibrationResult result = calibratedWithTacticalSystem(survey, {"3"});
   const ErrorFinding offset = findingOf(result, ErrorSource::height_offset);
   const double of_block =
       result.sources[indexOf(ErrorSource::height_offset)] - result[P::range_bias].bias;
@@ -111,7 +107,8 @@ TEST(BlockOffset, FromAFixedStrip) {
 
 /// Control on slopes shows a shift in plan.
 TEST(BlockOffset, InPlanShowsOnSlopes) {
-  const CalibrationResult result = calibrated(SimulatedSurvey(block("offset_x=0.6,offset_y=-0.4")));
+  const CalibrationResult result =
+      calibratedWithTacticalSystem(SimulatedSurvey(unbiasedBlock("offset_x=0.6,offset_y=-0.4")));
   const ErrorFinding east = findingOf(result, ErrorSource::east_offset);
   const ErrorFinding north = findingOf(result, ErrorSource::north_offset);
   EXPECT_TRUE(east.corrected && north.corrected);
@@ -123,25 +120,25 @@ TEST(BlockOffset, InPlanShowsOnSlopes) {
 
 /// A block without an offset has none, and a range bias remains one.
 TEST(BlockOffset, IsAbsentWhereARangeBiasIs) {
-  SimulationOptions options = block("");
+  SimulationOptions options = unbiasedBlock("");
   options.bias[indexOf(P::range_bias)] = 0.5;
-  const CalibrationResult result = calibrated(SimulatedSurvey(options));
+  const CalibrationResult result = calibratedWithTacticalSystem(SimulatedSurvey(options));
   EXPECT_EQ(result.sources[indexOf(ErrorSource::height_offset)], 0.0);
   EXPECT_NEAR(result[P::range_bias].bias, 0.5, 4.0 * result[P::range_bias].std);
 }
 
 /// Without control nothing shows an offset of the block, and none is reported.
 TEST(BlockOffset, IsNoHypothesisWithoutControl) {
-  SimulatedSurvey survey(block("offset_z=-0.3"));
+  SimulatedSurvey survey(unbiasedBlock("offset_z=-0.3"));
   survey.control.clear();
-  const CalibrationResult result = calibrated(survey);
+  const CalibrationResult result = calibratedWithTacticalSystem(survey);
   for (const ErrorFinding& finding : result.diagnosis)
     EXPECT_NE(finding.source, infoOf(ErrorSource::height_offset).name);
 }
 
 /// One flying height over flat ground: only the sum of range bias and offset has a value.
 TEST(BlockOffset, OnlyTheSumIsDeterminedAtOneHeight) {
-  SimulatedSurvey survey(block("offset_z=-0.3"));
+  SimulatedSurvey survey(unbiasedBlock("offset_z=-0.3"));
   SimulatedSurvey::Request request;
   request.rigorous = true;
   request.control = survey.control;
@@ -155,7 +152,7 @@ TEST(BlockOffset, OnlyTheSumIsDeterminedAtOneHeight) {
   EXPECT_FALSE(range.determined);
   EXPECT_NE(range.reason.find("height offset"), std::string::npos) << range.reason;
   EXPECT_FALSE(findingOf(result, ErrorSource::height_offset).determined);
-  EXPECT_TRUE(isWarnedOf(result, "the correction of points is the same"));
+  EXPECT_TRUE(isWarnedOf(result.warnings, "the correction of points is the same"));
 }
 
 }  // namespace

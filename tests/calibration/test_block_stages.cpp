@@ -106,7 +106,7 @@ void load(const HandMadeBlock& given, AreaSample& sample) {
   sample.prepare();
 }
 
-std::string refusalOf(const HandMadeBlock& given, const BlockRequest& request) {
+std::string refusalOfBlock(const HandMadeBlock& given, const BlockRequest& request) {
   try {
     chosen(given, request);
   } catch (const std::exception& error) {
@@ -213,17 +213,18 @@ TEST(SurveyBlock, RefusesWhatCannotBeCompared) {
   const HandMadeBlock given = planes({0.0, 0.1});
   BlockRequest request = requestOf();
   request.pairs = {{"1", "7"}};
-  EXPECT_EQ(refusalOf(given, request), "pairs name strip '7', but the strips are 1, 2");
+  EXPECT_EQ(refusalOfBlock(given, request), "pairs name strip '7', but the strips are 1, 2");
   request.pairs = {{"1", "1"}};
-  EXPECT_EQ(refusalOf(given, request), "pairs name strip '1' with itself");
+  EXPECT_EQ(refusalOfBlock(given, request), "pairs name strip '1' with itself");
   request.pairs.clear();
   request.settings.fixed = {"1", "2"};
-  EXPECT_EQ(refusalOf(given, request), "all strips are held fixed: there is nothing to calibrate");
+  EXPECT_EQ(refusalOfBlock(given, request),
+            "all strips are held fixed: there is nothing to calibrate");
   request.settings.fixed = {"9"};
-  EXPECT_EQ(refusalOf(given, request), "there is no strip 9 to be held fixed");
+  EXPECT_EQ(refusalOfBlock(given, request), "there is no strip 9 to be held fixed");
   HandMadeBlock late = given;
   for (LidarReturn& point : late.strips[1]) point.time += 50.0;
-  EXPECT_NE(refusalOf(late, requestOf()).find("the trajectory covers"), std::string::npos);
+  EXPECT_NE(refusalOfBlock(late, requestOf()).find("the trajectory covers"), std::string::npos);
 }
 
 TEST(SurveyBlock, GivesFixedStripsASystemWithoutUnknowns) {

@@ -89,7 +89,7 @@ TEST(MisfitComparison, OutliersDoNotDecide) {
 }
 
 /// A converged result with one estimated parameter.
-CalibrationResult resultWith(double bias, double std, const MisfitChange& misfit) {
+CalibrationResult resultWithBias(double bias, double std, const MisfitChange& misfit) {
   CalibrationResult result;
   result.converged = true;
   result[P::boresight_roll].status = ParameterStatus::estimated;
@@ -112,7 +112,7 @@ const MisfitChange kLarger = changeOf({0.03, 0.031, 0.03}, {0.033, 0.034, 0.033}
 const MisfitChange kUncertain = changeOf({0.03, 0.03, 0.03}, {0.05, 0.02, 0.03});
 
 TEST(CalibrationJudgement, ASmallerMisfitIsUsableAndSaysHowMuch) {
-  const CalibrationVerdict verdict = verdictOn(resultWith(1e-3, 1e-5, kSmaller));
+  const CalibrationVerdict verdict = verdictOn(resultWithBias(1e-3, 1e-5, kSmaller));
   EXPECT_EQ(verdict.status, CalibrationStatus::usable);
   EXPECT_NE(verdict.reason.find("5.00 cm as delivered"), std::string::npos) << verdict.reason;
 }
@@ -121,7 +121,7 @@ TEST(CalibrationJudgement, ASmallerMisfitIsUsableAndSaysHowMuch) {
 // was; the northern part of the block had a third of it.
 TEST(CalibrationJudgement, ABiasThatReducesNoMisfitIsRemarkedOn) {
   const auto warningsOf = [](double bias, const MisfitChange& misfit) {
-    CalibrationResult result = resultWith(bias, 1e-5, misfit);
+    CalibrationResult result = resultWithBias(bias, 1e-5, misfit);
     judgeCalibration({}, "", result);
     return result.warnings;
   };
@@ -137,7 +137,7 @@ TEST(CalibrationJudgement, ABiasThatReducesNoMisfitIsRemarkedOn) {
 // 5400" without a word).
 TEST(CalibrationJudgement, AnglesBeyondAllMountingsAreRemarkedOn) {
   const auto warningsOf = [](SystemParameter p, double degrees) {
-    CalibrationResult result = resultWith(1e-4, 1e-5, kSmaller);
+    CalibrationResult result = resultWithBias(1e-4, 1e-5, kSmaller);
     result[p] = {3600.0 * degrees * kRadiansPerArcsec, 1e-5, 0.0, ParameterStatus::estimated, ""};
     judgeCalibration({}, "", result);
     EXPECT_TRUE(result.verdict.usable());
@@ -155,25 +155,25 @@ TEST(CalibrationJudgement, AnglesBeyondAllMountingsAreRemarkedOn) {
 
 TEST(CalibrationJudgement, ALargerMisfitIsNoImprovement) {
   // 2026-11: a block whose misfit grew from 3.1 to 3.3 cm was reported as calibrated.
-  const CalibrationVerdict verdict = verdictOn(resultWith(1e-5, 1e-5, kLarger));
+  const CalibrationVerdict verdict = verdictOn(resultWithBias(1e-5, 1e-5, kLarger));
   EXPECT_EQ(verdict.status, CalibrationStatus::no_improvement);
   EXPECT_NE(verdict.reason.find("larger after the calibration"), std::string::npos);
 }
 
 TEST(CalibrationJudgement, ASystemThatWasCalibratedAlreadyIsUsable) {
-  EXPECT_TRUE(verdictOn(resultWith(1e-5, 1e-5, kUnchanged)).usable());
+  EXPECT_TRUE(verdictOn(resultWithBias(1e-5, 1e-5, kUnchanged)).usable());
 }
 
 TEST(CalibrationJudgement, AnUncertainIncreaseCountsWhereTheBiasesAreSignificant) {
   ASSERT_GT(kUncertain.change(), 0.0);
   ASSERT_LT(kUncertain.change(), 2.0 * kUncertain.change_std);
-  EXPECT_TRUE(verdictOn(resultWith(1e-5, 1e-5, kUncertain)).usable());
-  EXPECT_EQ(verdictOn(resultWith(1e-3, 1e-5, kUncertain)).status,
+  EXPECT_TRUE(verdictOn(resultWithBias(1e-5, 1e-5, kUncertain)).usable());
+  EXPECT_EQ(verdictOn(resultWithBias(1e-3, 1e-5, kUncertain)).status,
             CalibrationStatus::no_improvement);
 }
 
 TEST(CalibrationJudgement, TheMostSeriousReasonGivesTheStatus) {
-  CalibrationResult result = resultWith(1e-3, 1e-5, kLarger);
+  CalibrationResult result = resultWithBias(1e-3, 1e-5, kLarger);
   result.verdict.downgrade(CalibrationStatus::parameters_affected, "strip 7 does not belong here");
   const CalibrationVerdict verdict = verdictOn(result, "it did not converge");
   EXPECT_EQ(verdict.status, CalibrationStatus::not_converged);
@@ -182,7 +182,7 @@ TEST(CalibrationJudgement, TheMostSeriousReasonGivesTheStatus) {
 }
 
 TEST(CalibrationJudgement, WhatWasAskedForByNameHasToBeDetermined) {
-  CalibrationResult result = resultWith(1e-3, 1e-5, kSmaller);
+  CalibrationResult result = resultWithBias(1e-3, 1e-5, kSmaller);
   result[P::lever_arm_y].status = ParameterStatus::not_estimable;
   result[P::lever_arm_y].reason = "a reason";
   EXPECT_TRUE(verdictOn(result).usable());
@@ -196,7 +196,7 @@ TEST(CalibrationJudgement, WhatWasAskedForByNameHasToBeDetermined) {
 }
 
 TEST(CalibrationJudgement, SignificanceCountsCorrelatedBiasesTogether) {
-  CalibrationResult result = resultWith(2.5e-5, 1e-5, kSmaller);
+  CalibrationResult result = resultWithBias(2.5e-5, 1e-5, kSmaller);
   EXPECT_FALSE(biasesAreSignificant(result));  // 99 %: 2.58 standard deviations
   result[P::boresight_roll].bias = 2.7e-5;
   EXPECT_TRUE(biasesAreSignificant(result));

@@ -12,6 +12,7 @@
 #include <pcl_als/common/errors.h>
 
 #include "simulated_survey.h"
+#include "warning_texts.h"
 
 namespace pcl_als {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 using P = SystemParameter;
 using simulation::NoiseOptions;
 using simulation::SimulationOptions;
+using test::joinedTexts;
 using test::SimulatedSurvey;
 
 SimulatedSurvey smallBlock() {
@@ -26,12 +28,6 @@ SimulatedSurvey smallBlock() {
   options.noise = NoiseOptions::named("range");
   options.seed = 17;
   return SimulatedSurvey(options);
-}
-
-std::string allOf(const Warnings& warnings) {
-  std::string text;
-  for (const Warning& warning : warnings) text += warning.text + '\n';
-  return text;
 }
 
 /// The number behind a text in the warnings; NaN where the text is not there.
@@ -44,7 +40,7 @@ TEST(CalibrationProblems, AGoodBlockIsUsableWithoutWarnings) {
   const CalibrationResult result = smallBlock().calibrate();
   EXPECT_EQ(result.verdict.status, CalibrationStatus::usable) << result.verdict.reason;
   EXPECT_LT(result.misfit.change(), -2.0 * result.misfit.change_std);
-  EXPECT_EQ(allOf(result.warnings), "");
+  EXPECT_EQ(joinedTexts(result.warnings), "");
   EXPECT_GT(result.control_points.size(), 5U);
 }
 
@@ -88,7 +84,7 @@ TEST(CalibrationProblems, WhatWasAskedForByNameIsNotLeftOutAtTheLimit) {
   const CalibrationResult result = smallBlock().calibrate(settings);
   EXPECT_FALSE(result.converged);
   EXPECT_FALSE(result.verdict.usable());
-  const std::string all = result.verdict.reason + allOf(result.warnings);
+  const std::string all = result.verdict.reason + joinedTexts(result.warnings);
   EXPECT_NE(all.find("did not converge in"), std::string::npos) << all;
   EXPECT_NE(all.find("estimate fewer parameters"), std::string::npos) << all;
 }
@@ -97,7 +93,7 @@ TEST(CalibrationProblems, ALiftedStripIsNamedWithItsHeight) {
   SimulatedSurvey survey = smallBlock();
   for (LidarReturn& point : survey.strips[2]) point.position.z() += 50.0;
   const CalibrationResult result = survey.calibrate();
-  const std::string warnings = allOf(result.warnings);
+  const std::string warnings = joinedTexts(result.warnings);
   EXPECT_NE(warnings.find("too far apart in height"), std::string::npos) << warnings;
   // Lowest points of 10 m cells of biased strips: decimetres.
   EXPECT_NEAR(numberAfter("strip 3 lies ", warnings), 50.0, 0.3) << warnings;
@@ -176,13 +172,13 @@ TEST(CalibrationProblems, ARejectedControlPointIsNamed) {
   ASSERT_GT(survey.control.size(), 5U);
   survey.control[3].position.z() -= 1.0;
   const CalibrationResult result = survey.calibrate();
-  const std::string warnings = allOf(result.warnings);
+  const std::string warnings = joinedTexts(result.warnings);
   EXPECT_NEAR(numberAfter(survey.control[3].id + " (", warnings), 1.0, 0.05) << warnings;
   EXPECT_TRUE(result.verdict.usable()) << result.verdict.reason;
 }
 
 /// What chooseAreas() says of control, or of a calibration with it; "none": nothing.
-std::string refusalOf(const SimulatedSurvey& survey, bool force = false) {
+std::string refusalOfControl(const SimulatedSurvey& survey, bool force = false) {
   SimulatedSurvey::Request request;
   request.control = survey.control;
   request.settings.force = force;
@@ -196,18 +192,18 @@ std::string refusalOf(const SimulatedSurvey& survey, bool force = false) {
 
 TEST(CalibrationProblems, ControlInAnotherSystemIsRefusedWithTheCause) {
   const SimulatedSurvey survey = smallBlock();
-  EXPECT_EQ(refusalOf(survey), "none");
+  EXPECT_EQ(refusalOfControl(survey), "none");
   const auto with = [&](const auto& change) {
     SimulatedSurvey other = survey;
     for (ControlPoint& point : other.control) change(point.position);
     return other;
   };
   const SimulatedSurvey exchanged = with([](Eigen::Vector3d& p) { std::swap(p.x(), p.y()); });
-  EXPECT_NE(refusalOf(exchanged).find("x and y exchanged"), std::string::npos);
-  EXPECT_EQ(refusalOf(exchanged, true), "none");
-  const std::string zone = refusalOf(with([](Eigen::Vector3d& p) { p.x() -= 400e3; }));
+  EXPECT_NE(refusalOfControl(exchanged).find("x and y exchanged"), std::string::npos);
+  EXPECT_EQ(refusalOfControl(exchanged, true), "none");
+  const std::string zone = refusalOfControl(with([](Eigen::Vector3d& p) { p.x() -= 400e3; }));
   EXPECT_NE(zone.find("km beside the strips"), std::string::npos) << zone;
-  const std::string datum = refusalOf(with([](Eigen::Vector3d& p) { p.z() += 47.0; }));
+  const std::string datum = refusalOfControl(with([](Eigen::Vector3d& p) { p.z() += 47.0; }));
   // Relief within cells of 10 m: some metres.
   EXPECT_NE(datum.find("control lies 4"), std::string::npos) << datum;
   EXPECT_NE(datum.find("vertical datum"), std::string::npos) << datum;

@@ -26,7 +26,7 @@ std::vector<ControlPointFit> points(std::size_t count, double std, double expect
   return fits;
 }
 
-CalibrationResult resultWith(const std::vector<ControlPointFit>& fits) {
+CalibrationResult resultWithControl(const std::vector<ControlPointFit>& fits) {
   CalibrationResult result;
   result[SystemParameter::range_bias].status = ParameterStatus::estimated;
   result[SystemParameter::range_bias].std = 0.01;
@@ -47,7 +47,7 @@ TEST(ControlConsistency, ControlAsGoodAsStatedIsNotRemarked) {
   int alarms = 0;
   for (unsigned seed = 1; seed <= 100; ++seed) {
     for (const std::size_t count : {6U, 12U, 40U}) {
-      const CalibrationResult result = resultWith(points(count, 0.02, 0.02, seed));
+      const CalibrationResult result = resultWithControl(points(count, 0.02, 0.02, seed));
       alarms += result.warnings.empty() && result.verdict.usable() ? 0 : 1;
     }
   }
@@ -58,7 +58,7 @@ TEST(ControlConsistency, HalfOfThePointsTooHighIsSaidAndAllowedFor) {
   // 2026-11: range_bias was 4.7 standard deviations off, without a warning.
   std::vector<ControlPointFit> fits = points(12, 0.01, 0.02, 1);
   for (std::size_t i = 0; i < 6; ++i) fits[i].after -= 0.2;
-  const CalibrationResult result = resultWith(fits);
+  const CalibrationResult result = resultWithControl(fits);
   EXPECT_EQ(result.verdict.status, CalibrationStatus::parameters_affected);
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_NE(result.warnings[0].text.find("higher above 6 of them"), std::string::npos)
@@ -75,7 +75,7 @@ TEST(ControlConsistency, HalfOfThePointsTooHighIsSaidAndAllowedFor) {
 }
 
 TEST(ControlConsistency, AScatterFarBeyondTheStatedSigmaIsSaid) {
-  const CalibrationResult result = resultWith(points(30, 0.1, 0.02, 3));
+  const CalibrationResult result = resultWithControl(points(30, 0.1, 0.02, 3));
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_NE(result.warnings[0].text.find("check the control points"), std::string::npos);
   EXPECT_TRUE(result.verdict.usable());
@@ -85,7 +85,7 @@ TEST(ControlConsistency, RejectedPointsAreNamedWithTheirResiduals) {
   std::vector<ControlPointFit> fits = points(10, 0.02, 0.02, 4);
   fits[7].after = 1.25;
   fits[7].used = false;
-  const CalibrationResult result = resultWith(fits);
+  const CalibrationResult result = resultWithControl(fits);
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_NE(result.warnings[0].text.find("7 (+1.250 m)"), std::string::npos)
       << result.warnings[0].text;
@@ -97,12 +97,12 @@ TEST(ControlConsistency, MostPointsRejectedIsAnObjection) {
   std::vector<ControlPointFit> fits = points(10, 0.02, 0.02, 4);
   for (std::size_t i = 0; i < 8; ++i) fits[i].after -= 1.5, fits[i].used = false;
   for (std::size_t i = 8; i < 10; ++i) fits[i].after -= 1.5;
-  const CalibrationResult result = resultWith(fits);
+  const CalibrationResult result = resultWithControl(fits);
   EXPECT_EQ(result.verdict.status, CalibrationStatus::parameters_affected);
   EXPECT_NE(result.verdict.reason.find("below 8 of 10 control points"), std::string::npos)
       << result.verdict.reason;
   for (ControlPointFit& fit : fits) fit.used = false;
-  for (const Warning& warning : resultWith(fits).warnings)
+  for (const Warning& warning : resultWithControl(fits).warnings)
     EXPECT_EQ(warning.text.find("RMS of 0.000 m"), std::string::npos) << warning.text;
 }
 

@@ -14,7 +14,7 @@
 namespace pcl_als {
 namespace {
 
-CalibrationResult calibrated(const std::string& errors, unsigned seed, bool diagnose = true) {
+CalibrationResult diagnosed(const std::string& errors, unsigned seed, bool diagnose = true) {
   auto options = simulation::SimulationOptions::preset("small");
   options.noise = simulation::NoiseOptions::named("realistic");
   options.seed = seed;
@@ -44,7 +44,7 @@ int supportedIn(const std::map<std::string, ErrorFinding>& findings) {
 }
 
 TEST(Diagnosis, FindsNothingInABlockWithoutFurtherErrors) {
-  const CalibrationResult result = calibrated("", 2);
+  const CalibrationResult result = diagnosed("", 2);
   EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
   const auto findings = findingsOf(result);
   EXPECT_EQ(supportedIn(findings), 0);
@@ -56,7 +56,7 @@ TEST(Diagnosis, FindsNothingInABlockWithoutFurtherErrors) {
 /// Torsion and a cubic error of the encoder together: both are found and removed, and the system
 /// parameters stay within four standard deviations (a chance of 1e-4 each).
 TEST(Diagnosis, FindsTwoErrorsAtOnce) {
-  const CalibrationResult result = calibrated("mirror_torsion=15,encoder_cubic=0.006", 3);
+  const CalibrationResult result = diagnosed("mirror_torsion=15,encoder_cubic=0.006", 3);
   const auto findings = findingsOf(result);
   EXPECT_EQ(supportedIn(findings), 2);
   const ErrorFinding& torsion = findings.at("mirror_torsion");
@@ -78,7 +78,7 @@ TEST(Diagnosis, FindsTwoErrorsAtOnce) {
 /// A scale that is larger than expected increases the variance components of the strips' heights,
 /// until it is corrected: it is no less determined for that, and the range bias is right.
 TEST(Diagnosis, CorrectsALargeScaleOfTheRanges) {
-  const CalibrationResult result = calibrated("range_scale=0.0003", 3);
+  const CalibrationResult result = diagnosed("range_scale=0.0003", 3);
   EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
   const auto findings = findingsOf(result);
   EXPECT_EQ(supportedIn(findings), 1);
@@ -94,7 +94,7 @@ TEST(Diagnosis, CorrectsALargeScaleOfTheRanges) {
 /// Evidence for a time offset that does not suffice to correct it: lever_arm_y takes in its effect,
 /// which its standard deviation includes.
 TEST(Diagnosis, UndecidedSourcesIncreaseStandardDeviations) {
-  const CalibrationResult result = calibrated("time_offset=3", 19);
+  const CalibrationResult result = diagnosed("time_offset=3", 19);
   const ErrorFinding offset = findingsOf(result).at("time_offset");
   ASSERT_GT(offset.probability, 0.25);
   ASSERT_FALSE(offset.corrected);
@@ -161,14 +161,14 @@ TEST(Diagnosis, FindsJumpsAndDifferencesBetweenSessions) {
 }
 
 TEST(Diagnosis, CanBeLeftOut) {
-  const CalibrationResult result = calibrated("", 2, false);
+  const CalibrationResult result = diagnosed("", 2, false);
   EXPECT_TRUE(result.diagnosis.empty());
 }
 
 /// A range error that depends on the intensity makes range_bias that of one intensity, which is
 /// stated. The simulator's error is zero at its reference intensity.
 TEST(Diagnosis, StatesTheIntensityOfTheRangeBias) {
-  const CalibrationResult result = calibrated("range_walk=0.03", 3);
+  const CalibrationResult result = diagnosed("range_walk=0.03", 3);
   const double walk = result.sources[indexOf(ErrorSource::intensity_ranging)];
   ASSERT_NE(walk, 0.0);
   const ParameterEstimate& range = result[SystemParameter::range_bias];

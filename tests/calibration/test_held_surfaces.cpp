@@ -25,7 +25,7 @@ using test::expectTruth;
 using test::SimulatedSurvey;
 
 /// Few points: all statements are relative to the standard deviations that follow from them.
-SimulationOptions small(std::uint64_t seed) {
+SimulationOptions sparseBlock(std::uint64_t seed) {
   SimulationOptions options = SimulationOptions::preset("small", 0.6, 0.35);
   options.noise = NoiseOptions::named("realistic");
   options.seed = seed;
@@ -33,17 +33,17 @@ SimulationOptions small(std::uint64_t seed) {
 }
 
 /// The block of a seed, simulated once.
-const SimulatedSurvey& block(std::uint64_t seed) {
+const SimulatedSurvey& blockOf(std::uint64_t seed) {
   static std::map<std::uint64_t, SimulatedSurvey> blocks;
-  return blocks.try_emplace(seed, small(seed)).first->second;
+  return blocks.try_emplace(seed, sparseBlock(seed)).first->second;
 }
 
 /// A block whose strip 3 is that of an earlier delivery, without biases and with this noise.
 SimulatedSurvey withEarlierStrip(std::uint64_t seed, const char* noise) {
-  SimulationOptions options = small(seed);
+  SimulationOptions options = sparseBlock(seed);
   options.bias.setZero();
   options.noise = NoiseOptions::named(noise);
-  SimulatedSurvey survey = block(seed);
+  SimulatedSurvey survey = blockOf(seed);
   survey.strips[2].clear();
   for (const simulation::SimulatedPoint& p : simulation::Simulator(options).strip(2))
     survey.strips[2].push_back(SimulatedSurvey::pointOf(p));
@@ -55,7 +55,7 @@ SimulatedSurvey withCorrectStrip(std::uint64_t seed) {
   return withEarlierStrip(seed, "range");
 }
 
-CalibrationSettings quick() {
+CalibrationSettings quickSettings() {
   CalibrationSettings settings;
   settings.candidates = 4'000;
   settings.selection.point_budget = 30'000;
@@ -64,11 +64,11 @@ CalibrationSettings quick() {
   return settings;
 }
 
-CalibrationResult calibrated(const SimulatedSurvey& survey, std::vector<std::string> fixed,
-                             double sigma = 0.02) {
+CalibrationResult calibratedToHeld(const SimulatedSurvey& survey, std::vector<std::string> fixed,
+                                   double sigma = 0.02) {
   SimulatedSurvey::Request request;
   request.rigorous = true;
-  request.settings = quick();
+  request.settings = quickSettings();
   request.settings.fixed = std::move(fixed);
   request.settings.fixed_sigma = sigma;
   return survey.calibrate(request).result;
@@ -77,7 +77,7 @@ CalibrationResult calibrated(const SimulatedSurvey& survey, std::vector<std::str
 TEST(FixedStrips, DetermineTheRangeBias) {
   for (const std::uint64_t seed : {4U}) {  // also run with 5 and 6
     const SimulatedSurvey survey = withCorrectStrip(seed);
-    const CalibrationResult result = calibrated(survey, {"3"});
+    const CalibrationResult result = calibratedToHeld(survey, {"3"});
     EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
     expectTruth(result, survey.bias);
     const ParameterEstimate& range = result[P::range_bias];
@@ -98,16 +98,16 @@ TEST(FixedStrips, DetermineTheRangeBias) {
 
 /// Without the option the block has no height, and strip 3 contradicts the others.
 TEST(FixedStrips, AreNeededForIt) {
-  const CalibrationResult result = calibrated(withCorrectStrip(4), {});
+  const CalibrationResult result = calibratedToHeld(withCorrectStrip(4), {});
   EXPECT_NE(result[P::range_bias].status, ParameterStatus::estimated);
   EXPECT_TRUE(result.held.empty());
 }
 
 TEST(FixedStrips, MustExistAndLeaveOthers) {
-  const SimulatedSurvey& survey = block(4);
-  EXPECT_THROW(calibrated(survey, {"9"}), UsageError);
-  EXPECT_THROW(calibrated(survey, {"1", "2", "3", "4", "5"}), UsageError);
-  EXPECT_THROW(calibrated(survey, {"3"}, -0.01), UsageError);
+  const SimulatedSurvey& survey = blockOf(4);
+  EXPECT_THROW(calibratedToHeld(survey, {"9"}), UsageError);
+  EXPECT_THROW(calibratedToHeld(survey, {"1", "2", "3", "4", "5"}), UsageError);
+  EXPECT_THROW(calibratedToHeld(survey, {"3"}, -0.01), UsageError);
 }
 
 /// Strip 3 is too high by 12 cm, twice the standard deviation that is stated for it: the range bias
@@ -115,8 +115,8 @@ TEST(FixedStrips, MustExistAndLeaveOthers) {
 TEST(FixedStrips, HaveAnErrorInCommon) {
   SimulatedSurvey survey = withCorrectStrip(4);
   for (LidarReturn& point : survey.strips[2]) point.position.z() += 0.12;
-  const CalibrationResult result = calibrated(survey, {"3"}, 0.06),
-                          certain = calibrated(survey, {"3"}, 0.0);
+  const CalibrationResult result = calibratedToHeld(survey, {"3"}, 0.06),
+                          certain = calibratedToHeld(survey, {"3"}, 0.0);
   expectTruth(result, survey.bias);
   const double truth = survey.bias[indexOf(P::range_bias)];
   EXPECT_GT(result[P::range_bias].std, 0.03);
@@ -128,7 +128,7 @@ TEST(FixedStrips, HaveAnErrorInCommon) {
 /// part of the standard deviations.
 TEST(FixedStrips, HaveTrajectoryErrors) {
   const SimulatedSurvey survey = withEarlierStrip(4, "realistic");
-  const CalibrationResult result = calibrated(survey, {"3"}, 0.0);
+  const CalibrationResult result = calibratedToHeld(survey, {"3"}, 0.0);
   expectTruth(result, survey.bias);
   // A priori 2 cm of the strip's height, of which other strips determine little; without: 1.1 cm.
   EXPECT_GT(result[P::range_bias].std, 0.015);
@@ -174,7 +174,7 @@ CalibrationResult calibratedWith(const SimulatedSurvey& survey, const Compared& 
     use(reference, with.points.data(), with.points.size());
   };
   each([&](int strip, const LidarReturn* p, std::size_t n) { index.add(strip, p, n); });
-  const SurveyBlock block = chooseAreas(std::move(index), {quick(), with.control, {}});
+  const SurveyBlock block = chooseAreas(std::move(index), {quickSettings(), with.control, {}});
   AreaSample sample(block);
   each([&](int strip, const LidarReturn* p, std::size_t n) { sample.add(strip, p, n); });
   return calibrate(sample).result;
@@ -182,8 +182,8 @@ CalibrationResult calibratedWith(const SimulatedSurvey& survey, const Compared& 
 
 TEST(ReferenceSurfaces, DetermineTheAbsoluteParameters) {
   for (const std::uint64_t seed : {14U}) {  // also run with 11 and 12
-    const SimulationOptions options = small(seed);
-    const SimulatedSurvey& survey = block(seed);
+    const SimulationOptions options = sparseBlock(seed);
+    const SimulatedSurvey& survey = blockOf(seed);
     const CalibrationResult result =
         calibratedWith(survey, {kSurface, referencePoints(options), {}, {}});
     EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
@@ -198,8 +198,8 @@ TEST(ReferenceSurfaces, DetermineTheAbsoluteParameters) {
 }
 
 TEST(ReferenceSurfaces, AreComparedWithControl) {
-  const SimulationOptions options = small(14);
-  const SimulatedSurvey& survey = block(14);
+  const SimulationOptions options = sparseBlock(14);
+  const SimulatedSurvey& survey = blockOf(14);
   const auto with = [&](double shift) {
     return calibratedWith(survey, {kSurface, referencePoints(options, shift), survey.control, {}});
   };
@@ -218,8 +218,8 @@ TEST(ReferenceSurfaces, AreComparedWithControl) {
 }
 
 TEST(ReferenceSurfaces, MayHaveACommonOffset) {
-  const SimulationOptions options = small(14);
-  const SimulatedSurvey& survey = block(14);
+  const SimulationOptions options = sparseBlock(14);
+  const SimulatedSurvey& survey = blockOf(14);
   Compared with{{"dem.laz", 0.02, 0.5}, referencePoints(options, 0.10), survey.control, {1, 2, 3}};
   const CalibrationResult result = calibratedWith(survey, with);
   EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
@@ -229,7 +229,7 @@ TEST(ReferenceSurfaces, MayHaveACommonOffset) {
 
 /// A flat surface under one strip shows heights only: range bias, roll and scan angle scale.
 TEST(ReferenceSurfaces, OnFlatGroundDetermineHeightsOnly) {
-  SimulationOptions options = small(15);
+  SimulationOptions options = sparseBlock(15);
   options.scene.relief = options.scene.buildings = options.scene.trees = 0.0;
   const SimulatedSurvey survey(options);
   const CalibrationResult result =
@@ -251,8 +251,8 @@ std::string refusal(const SimulatedSurvey& survey, std::vector<LidarReturn> poin
 }
 
 TEST(ReferenceSurfaces, ThatDoNotBelongToTheBlockAreRefused) {
-  const SimulationOptions options = small(14);
-  const SimulatedSurvey& survey = block(14);
+  const SimulationOptions options = sparseBlock(14);
+  const SimulatedSurvey& survey = blockOf(14);
   auto elsewhere = referencePoints(options), in_feet = elsewhere;
   for (LidarReturn& point : elsewhere) point.position.x() += 10'000.0;
   for (LidarReturn& point : in_feet) point.position.z() /= 0.3048;
@@ -300,11 +300,11 @@ std::vector<ControlPoint> roofs(const SimulationOptions& like) {
 
 /// Roofs show shifts in all directions: with them a block has its absolute position.
 TEST(ControlPatches, AreUsedAlongTheirNormals) {
-  const SimulationOptions options = small(21);
-  const SimulatedSurvey& survey = block(21);
+  const SimulationOptions options = sparseBlock(21);
+  const SimulatedSurvey& survey = blockOf(21);
   SimulatedSurvey::Request request;
   request.rigorous = true;
-  request.settings = quick();
+  request.settings = quickSettings();
   request.control = roofs(options);
   ASSERT_GT(request.control.size(), 10U);
   const CalibrationResult result = survey.calibrate(request).result;

@@ -227,7 +227,7 @@ test::SimulatedSurvey crossing(unsigned seed) {
   return test::SimulatedSurvey(options);
 }
 
-CalibrationResult calibrated(const test::SimulatedSurvey& survey) {
+CalibrationResult calibratedWithControl(const test::SimulatedSurvey& survey) {
   test::SimulatedSurvey::Request request;
   request.control = survey.control;
   request.rigorous = true;
@@ -290,7 +290,7 @@ TEST(LargeCorrections, NameAHeightError) {
   Error error(survey, 2);
   error.shift.z() = 0.27;
   error.apply(survey);
-  const CalibrationResult result = calibrated(survey);
+  const CalibrationResult result = calibratedWithControl(survey);
   expectNamed(error, result, kUp, 0.27);
 }
 
@@ -299,7 +299,7 @@ TEST(LargeCorrections, NameARollError) {
   Error error(survey, 3);
   error.roll = -150.0 * kRadiansPerArcsec;
   error.apply(survey);
-  const CalibrationResult result = calibrated(survey);
+  const CalibrationResult result = calibratedWithControl(survey);
   expectNamed(error, result, kRoll, error.roll);
 }
 
@@ -308,7 +308,7 @@ TEST(LargeCorrections, NameAnErrorAcrossTheStrip) {
   Error error(survey, 3);  // flown to the east
   error.shift.y() = -0.5;
   error.apply(survey);
-  const CalibrationResult result = calibrated(survey);
+  const CalibrationResult result = calibratedWithControl(survey);
   expectNamed(error, result, kNorth, -0.5);
 }
 
@@ -318,7 +318,7 @@ TEST(LargeCorrections, NameAnErrorWhosePairsAreRejected) {
   Error error(survey, 2);
   error.shift.z() = -0.9;
   error.apply(survey);
-  const CalibrationResult result = calibrated(survey);
+  const CalibrationResult result = calibratedWithControl(survey);
   expectNamed(error, result, kUp, -0.9);
   for (const StripErrors& strip : result.strip_errors)
     for (const TrajectoryErrorKnot& knot : strip.knots) EXPECT_LT(knot.position.norm(), 0.3);
@@ -348,7 +348,7 @@ TEST(LargeCorrections, AreRejectedTogetherWhereMostPairsOfASecondAre) {
 TEST(LargeCorrections, AreRareWithoutErrors) {
   int listed = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    const CalibrationResult result = calibrated(crossing(seed));
+    const CalibrationResult result = calibratedWithControl(crossing(seed));
     EXPECT_TRUE(result.converged);
     for (const LargeCorrection& correction : result.large_corrections)
       std::cout << "seed " << seed << ": " << describe(correction) << '\n';

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pair_coverage.h"
+#include "warning_texts.h"
 
 namespace pcl_als {
 namespace {
@@ -16,12 +17,6 @@ PairFit fit(const char* a, const char* b, std::size_t correspondences, double rm
   found.correspondences = correspondences;
   found.rms_before = rms;
   return found;
-}
-
-std::string allOf(const Warnings& warnings) {
-  std::string text;
-  for (const Warning& warning : warnings) text += warning.text + '\n';
-  return text;
 }
 
 TEST(PairCoverage, ACompleteBlockIsLeftAsItIs) {
@@ -59,13 +54,13 @@ TEST(PairCoverage, StripsThatAgreeOverOthersAreOneBlock) {
   judgePairCoverage({{"1", "2", {0.0, 90}}, {"1", "3", {1.4, 25}}, {"2", "3", {0.0, 90}}}, kLimit,
                     result);
   EXPECT_TRUE(result.verdict.usable());
-  EXPECT_NE(allOf(result.warnings).find("1 of 3 overlapping pairs lies too far"),
+  EXPECT_NE(test::joinedTexts(result.warnings).find("1 of 3 overlapping pairs lies too far"),
             std::string::npos);
   // With correspondences of one surface the lowest points are not believed.
   result.pairs.push_back(fit("3", "1", 300, 0.05));
   result.warnings.clear();
   judgePairCoverage({{"1", "3", {1.4, 25}}}, kLimit, result);
-  EXPECT_EQ(allOf(result.warnings), "");
+  EXPECT_EQ(test::joinedTexts(result.warnings), "");
 }
 
 TEST(PairCoverage, PairsWithoutASurfaceAreCountedAndLoneStripsNamed) {
@@ -78,7 +73,7 @@ TEST(PairCoverage, PairsWithoutASurfaceAreCountedAndLoneStripsNamed) {
   EXPECT_EQ(result.verdict.reason,
             "the misfit is smaller; 2 of 3 overlapping pairs were not compared, because no smooth "
             "surface in common was found: strips 1 and 3, 2 and 3");
-  EXPECT_EQ(allOf(result.warnings),
+  EXPECT_EQ(test::joinedTexts(result.warnings),
             "strip 3 has no pairs with any strip although it overlaps others: no smooth surface "
             "in common was found\n");
 }

@@ -37,7 +37,7 @@ PairObservation pairAt(double x, const Eigen::Vector3d& normal, int a = 0, int b
   return o;
 }
 
-Weights unitWeights(const std::vector<AreaObservations>& areas) {
+Weights equalWeights(const std::vector<AreaObservations>& areas) {
   Weights weights;
   for (const AreaObservations& area : areas) weights.emplace_back(area.size(), 1.0);
   return weights;
@@ -61,10 +61,10 @@ std::vector<AreaObservations> mostlyFlat() {
 }
 
 /// Two strips, known but for errors far smaller than a pair's noise.
-struct Block {
-  explicit Block(std::vector<AreaObservations> given)
+struct TwoStrips {
+  explicit TwoStrips(std::vector<AreaObservations> given)
       : areas(std::move(given)),
-        weights(unitWeights(areas)),
+        weights(equalWeights(areas)),
         errors({{0.0, 1.0}, {10.0, 11.0}, {20.0, 21.0}, {30.0, 31.0}}, model()),
         adjustment(errors) {
     adjustment.accumulate(areas, weights);
@@ -87,9 +87,9 @@ struct Block {
   SharedErrors errors;
   Adjustment adjustment;
 };
-const std::vector<SystemParameter> Block::kShown = {SystemParameter::lever_arm_x,
-                                                    SystemParameter::boresight_pitch,
-                                                    SystemParameter::boresight_roll};
+const std::vector<SystemParameter> TwoStrips::kShown = {SystemParameter::lever_arm_x,
+                                                        SystemParameter::boresight_pitch,
+                                                        SystemParameter::boresight_roll};
 
 /// Gives every pair noise of its own.
 std::vector<AreaObservations> withNoise(std::vector<AreaObservations> areas, unsigned seed) {
@@ -102,7 +102,7 @@ std::vector<AreaObservations> withNoise(std::vector<AreaObservations> areas, uns
 }
 
 /// The chosen pairs as they are adjusted.
-Block chosenOf(const Block& block, const PairSelection& selection, bool offsets) {
+TwoStrips chosenOf(const TwoStrips& block, const PairSelection& selection, bool offsets) {
   std::vector<AreaObservations> kept(block.areas.size());
   for (std::size_t area = 0; area < kept.size(); ++area) {
     for (const ChosenPair& pair : selection.chosen()[area]) {
@@ -112,7 +112,7 @@ Block chosenOf(const Block& block, const PairSelection& selection, bool offsets)
       kept[area].push_back(o);
     }
   }
-  return Block(kept);
+  return TwoStrips(kept);
 }
 
 /// How far estimates from chosen pairs scatter about those from all of them, in deviations of the
@@ -121,10 +121,10 @@ double scatterAbout(bool offsets) {
   constexpr unsigned kDraws = 40;
   double sum = 0.0;
   for (unsigned draw = 0; draw < kDraws; ++draw) {
-    const Block block(withNoise(mostlyFlat(), draw));
+    const TwoStrips block(withNoise(mostlyFlat(), draw));
     const AdjustmentSolution all = block.solution();
     const AdjustmentSolution part = chosenOf(block, block.choose({800, 0.25}), offsets).solution();
-    for (const SystemParameter p : Block::kShown) {
+    for (const SystemParameter p : TwoStrips::kShown) {
       const double difference = part.biases[indexOf(p)] - all.biases[indexOf(p)];
       sum += difference * difference / all.formal(indexOf(p), indexOf(p)) / (3.0 * kDraws);
     }
@@ -133,7 +133,7 @@ double scatterAbout(bool offsets) {
 }
 
 TEST(PairSelection, KeepsEverythingWithinTheBudget) {
-  const Block block(mostlyFlat());
+  const TwoStrips block(mostlyFlat());
   const PairSelection selection = block.choose({20000, 0.25});
   EXPECT_EQ(selection.chosenCount(), 10600U);
   EXPECT_EQ(selection.chosen()[0][0].represented, 1.0);
@@ -148,7 +148,7 @@ TEST(PairSelection, TellsWhatAllPairsTell) {
 /// Sums over pairs of what residuals show of a displacement, its changes with either strip's time,
 /// and a ranging share.
 using Shown = Eigen::Matrix<double, 10, 1>;
-Shown shownBy(const Block& block) {
+Shown shownBy(const TwoStrips& block) {
   const AdjustmentSolution zero = block.adjustment.unsolved(SystemVector::Zero());
   Shown sum = Shown::Zero();
   for (const PairObservation& o : block.areas[0]) {
@@ -173,7 +173,7 @@ TEST(PairSelection, ChosenResidualsSumToThoseOfAll) {
     o.misclosure = 0.02 * normal(random);
     areas[0].push_back(o);
   }
-  const Block block(areas);
+  const TwoStrips block(areas);
   const AdjustmentSolution zero = block.adjustment.unsolved(SystemVector::Zero());
   const PairSelection selection(block.areas, block.weights, block.adjustment, zero, {500, 0.25});
   const Shown all = shownBy(block), part = shownBy(chosenOf(block, selection, true)),
@@ -183,7 +183,7 @@ TEST(PairSelection, ChosenResidualsSumToThoseOfAll) {
 }
 
 TEST(PairSelection, WeighsWhatItKeepsAsMuchAsAll) {
-  const Block block(mostlyFlat());
+  const TwoStrips block(mostlyFlat());
   const PairSelection selection = block.choose({800, 0.25});
   double stood_for = 0.0;
   for (const auto& pairs : selection.chosen()) {
@@ -196,7 +196,7 @@ TEST(PairSelection, LeavesNoMeetingOfStripsUnseen) {
   auto areas = mostlyFlat();
   areas.emplace_back();  // an area that tells nothing new
   for (int i = 0; i < 500; ++i) areas.back().push_back(pairAt(0.0, Eigen::Vector3d::UnitZ(), 2, 3));
-  const PairSelection selection = Block(areas).choose({800, 0.25});
+  const PairSelection selection = TwoStrips(areas).choose({800, 0.25});
   EXPECT_GE(selection.chosen().back().size(), 15U);  // 200 pairs over 11 pairs of strips in areas
 }
 
@@ -207,7 +207,7 @@ TEST(PairSelection, NeverTakesOutliersAndAlwaysControl) {
   control.a = PairObservation::kControl;
   control.row_a.setZero();
   areas.back().push_back(control);
-  Block block(areas);
+  TwoStrips block(areas);
   for (std::size_t i = 0; i < block.weights[3].size(); i += 2) block.weights[3][i] = 0.0;
   const PairSelection selection = block.choose({800, 0.25});
   for (const ChosenPair& pair : selection.chosen()[3]) EXPECT_EQ(pair.index % 2, 1U);

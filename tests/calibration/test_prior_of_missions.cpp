@@ -13,6 +13,7 @@
 #include <pcl_als/io/prior_file.h>
 
 #include "simulated_survey.h"
+#include "warning_texts.h"
 
 namespace pcl_als {
 namespace {
@@ -142,8 +143,7 @@ TEST(PriorOfMissions, NamesTheParameterThatChanged) {
   // The value is that of this flight, not a mean of both.
   EXPECT_NEAR(result[P::boresight_roll].bias, options.bias[indexOf(P::boresight_roll)],
               3.0 * result[P::boresight_roll].std);
-  std::string warnings;
-  for (const Warning& warning : result.warnings) warnings += warning.text + "\n";
+  const std::string warnings = test::joinedTexts(result.warnings);
   EXPECT_NE(warnings.find("boresight_roll: the prior of calibration.json says"), std::string::npos)
       << warnings;
   // A value that is stated is used, with a warning.

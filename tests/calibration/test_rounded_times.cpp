@@ -8,6 +8,7 @@
 #include <pcl_als/common/errors.h>
 
 #include "simulated_survey.h"
+#include "warning_texts.h"
 
 namespace pcl_als {
 namespace {
@@ -35,8 +36,7 @@ class RoundedTimes : public ::testing::Test {
 TEST_F(RoundedTimes, LeaveTheirStripOut) {
   round(3);
   const CalibrationResult result = calibrate();
-  std::string all;
-  for (const Warning& warning : result.warnings) all += warning.text + "\n";
+  const std::string all = test::joinedTexts(result.warnings);
   EXPECT_NE(all.find("strip 4"), std::string::npos) << all;
   EXPECT_NE(all.find("whole seconds"), std::string::npos) << all;
   EXPECT_NE(all.find("excluded"), std::string::npos) << all;

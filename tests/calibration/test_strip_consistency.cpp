@@ -15,11 +15,11 @@ namespace {
 constexpr StripErrorPrior kPrior{0.02, 20.0};
 
 /// Strips of 60 s, five minutes apart, at 1000 m, each overlapping the next two.
-struct Block {
+struct StripChain {
   std::vector<StripFacts> strips;
   std::vector<double> heights;  ///< metres, of each strip above its true place
 
-  explicit Block(std::vector<double> of_strips) : heights(std::move(of_strips)) {
+  explicit StripChain(std::vector<double> of_strips) : heights(std::move(of_strips)) {
     for (std::size_t i = 0; i < heights.size(); ++i) {
       const double start = 300.0 * static_cast<double>(i);
       strips.push_back({std::to_string(i + 1), start, start + 60.0, 1000.0});
@@ -48,7 +48,7 @@ TEST(StripConsistency, TheMeanOfAProcessVariesLessThanTheProcess) {
 }
 
 TEST(StripConsistency, FindsTheOffsetsOfTheStrips) {
-  const StripConsistency found = Block({0.01, -0.02, 0.0, 0.03, -0.02}).consistency();
+  const StripConsistency found = StripChain({0.01, -0.02, 0.0, 0.03, -0.02}).consistency();
   ASSERT_EQ(found.offsets().size(), 5U);
   EXPECT_NEAR(found.offsets()[3].offset, 0.03, 1e-6);
   EXPECT_NEAR(found.offsets()[1].offset, -0.02, 1e-6);
@@ -62,13 +62,13 @@ TEST(StripConsistency, StripsWithinTheirPriorAreNotRemarked) {
   for (int k = 0; k < 200; ++k) {
     std::vector<double> heights(8);
     for (double& height : heights) height = noise(random);
-    alarms += Block(heights).consistency().warnings().empty() ? 0 : 1;
+    alarms += StripChain(heights).consistency().warnings().empty() ? 0 : 1;
   }
   EXPECT_LE(alarms, 16);  // 10 + 2 sqrt(10)
 }
 
 TEST(StripConsistency, AStripThatDoesNotFitIsNamed) {
-  const Block block({0.003, -0.004, 0.002, 0.063, -0.001, 0.004});
+  const StripChain block({0.003, -0.004, 0.002, 0.063, -0.001, 0.004});
   const StripConsistency found = block.consistency();
   ASSERT_EQ(found.warnings().size(), 1U);
   EXPECT_NE(found.warnings()[0].text.find("strip 4 lies 0.06"), std::string::npos)
@@ -78,14 +78,15 @@ TEST(StripConsistency, AStripThatDoesNotFitIsNamed) {
 }
 
 TEST(StripConsistency, ALowStripLiesBelowTheOthers) {
-  const StripConsistency found = Block({0.003, -0.004, -0.063, 0.002, -0.001, 0.004}).consistency();
+  const StripConsistency found =
+      StripChain({0.003, -0.004, -0.063, 0.002, -0.001, 0.004}).consistency();
   ASSERT_EQ(found.warnings().size(), 1U);
   EXPECT_NE(found.warnings()[0].text.find("strip 3 lies 0.06"), std::string::npos);
   EXPECT_NE(found.warnings()[0].text.find(" m below the others"), std::string::npos);
 }
 
 TEST(StripConsistency, ASessionOfAnotherDayIsNamedWithItsHeight) {
-  Block block({0.003, -0.004, 0.002, 0.051, 0.048, 0.052});
+  StripChain block({0.003, -0.004, 0.002, 0.051, 0.048, 0.052});
   for (std::size_t i = 3; i < 6; ++i)
     block.strips[i].start += 86400.0, block.strips[i].end += 86400.0;
   StripConsistency found = block.consistency();
@@ -104,7 +105,7 @@ TEST(StripConsistency, ASessionOfAnotherDayIsNamedWithItsHeight) {
 }
 
 TEST(StripConsistency, StripsOfAnotherFlyingHeightThatDoNotFitAreNamed) {
-  Block block({0.003, -0.004, 0.002, 0.058, 0.062, 0.064});
+  StripChain block({0.003, -0.004, 0.002, 0.058, 0.062, 0.064});
   for (std::size_t i = 3; i < 6; ++i) block.strips[i].height = 1600.0;
   const StripConsistency found = block.consistency();
   ASSERT_FALSE(found.warnings().empty());
@@ -113,7 +114,7 @@ TEST(StripConsistency, StripsOfAnotherFlyingHeightThatDoNotFitAreNamed) {
 }
 
 TEST(StripConsistency, TwoStripsCannotBeJudged) {
-  EXPECT_TRUE(Block({0.1, -0.1}).consistency().warnings().empty());
+  EXPECT_TRUE(StripChain({0.1, -0.1}).consistency().warnings().empty());
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace pcl_als {
 namespace {
 
 /// Two strips; the second has a constant error in height and in roll.
-CalibrationResult resultWith(double up, double roll) {
+CalibrationResult resultWithStripError(double up, double roll) {
   CalibrationResult result;
   result.strip_errors = {{"7", {{0.0}, {1.0}}, {}}, {"8", {{0.0}, {1.0}}, {}}};
   for (TrajectoryErrorKnot& knot : result.strip_errors[1].knots) {
@@ -37,14 +37,15 @@ void assess(CalibrationResult& result) {
 }
 
 TEST(StripErrorCheck, AcceptsErrorsOfTheAPrioriSize) {
-  CalibrationResult result = resultWith(0.04, -16.0 * kRadiansPerArcsec);  // two deviations each
+  CalibrationResult result =
+      resultWithStripError(0.04, -16.0 * kRadiansPerArcsec);  // two deviations each
   assess(result);
   EXPECT_TRUE(result.warnings.empty());
   EXPECT_TRUE(result.verdict.usable());
 }
 
 TEST(StripErrorCheck, WarnsBeyondThreeDeviations) {
-  CalibrationResult result = resultWith(0.0, -32.0 * kRadiansPerArcsec);
+  CalibrationResult result = resultWithStripError(0.0, -32.0 * kRadiansPerArcsec);
   assess(result);
   ASSERT_EQ(result.warnings.size(), 2U);  // the correction, and the parameters
   EXPECT_NE(result.warnings[0].text.find("strip 8: trajectory correction in roll of 32 arcsec"),
@@ -56,7 +57,7 @@ TEST(StripErrorCheck, WarnsBeyondThreeDeviations) {
 }
 
 TEST(StripErrorCheck, ObjectsBeyondFive) {
-  CalibrationResult result = resultWith(-0.307, 0.0);
+  CalibrationResult result = resultWithStripError(-0.307, 0.0);
   assess(result);
   EXPECT_EQ(result.verdict.status, CalibrationStatus::parameters_affected);
   EXPECT_NE(result.verdict.reason.find("height of 307 mm"), std::string::npos)
@@ -72,7 +73,7 @@ TEST(StripErrorCheck, ObjectsBeyondFive) {
 }
 
 TEST(StripErrorCheck, NoObjectionWhereNoParameterDependsOnThem) {
-  CalibrationResult result = resultWith(-0.307, 0.0);
+  CalibrationResult result = resultWithStripError(-0.307, 0.0);
   assessStripErrors(CalibrationSettings(), {effects().front()}, HeightError(), result);
   EXPECT_TRUE(result.verdict.usable());
   EXPECT_EQ(result.warnings.size(), 1U);
@@ -87,7 +88,7 @@ TEST(StripErrorCheck, NamesAKnownCauseFirst) {
   HeightError height;
   height.kind = HeightError::Kind::gross;
   for (const bool by_height : {false, true}) {
-    CalibrationResult result = resultWith(-0.307, 0.0);
+    CalibrationResult result = resultWithStripError(-0.307, 0.0);
     result.diagnosis = {finding};
     assessStripErrors(CalibrationSettings(), effects(), by_height ? height : HeightError(), result);
     const std::string text =
@@ -101,7 +102,7 @@ TEST(StripErrorCheck, NamesAKnownCauseFirst) {
   }
   // The parameters themselves and what is not supported are no cause.
   for (const char* source : {"boresight_roll", "session2_offset_up", "trajectory_jump"}) {
-    CalibrationResult result = resultWith(-0.307, 0.0);
+    CalibrationResult result = resultWithStripError(-0.307, 0.0);
     finding.source = source;
     result.diagnosis = {finding};
     assessStripErrors(CalibrationSettings(), effects(), HeightError(), result);
@@ -147,16 +148,16 @@ TEST(StripErrorCheck, ReportsThatOnlyCorrectionsMakeStripsAgree) {
   fit.correspondences = 100;
   fit.rms_before = fit.rms_after = 0.2;
   fit.rms_strips = 0.03;
-  CalibrationResult small = resultWith(0.0, 0.0);  // as after an earlier calibration
+  CalibrationResult small = resultWithStripError(0.0, 0.0);  // as after an earlier calibration
   small.pairs = {fit};
   assess(small);
   EXPECT_EQ(small.warnings.size(), 1U);
   EXPECT_TRUE(small.verdict.usable());
-  CalibrationResult large = resultWith(0.08, 0.0);  // four a priori standard deviations
+  CalibrationResult large = resultWithStripError(0.08, 0.0);  // four a priori standard deviations
   large.pairs = {fit};
   assess(large);
   EXPECT_EQ(large.verdict.status, CalibrationStatus::parameters_affected);
-  large = resultWith(0.08, 0.0);
+  large = resultWithStripError(0.08, 0.0);
   fit.rms_after = 0.05;  // the biases explain most of the misfit
   large.pairs = {fit};
   assess(large);

@@ -25,7 +25,7 @@ using test::SimulatedStrips;
 using test::SimulatedSurvey;
 
 /// A small block with errors of trajectory and points, of which only the path is used.
-SimulationOptions block() {
+SimulationOptions smallBlock() {
   SimulationOptions options = SimulationOptions::preset("small", 1.0, 0.7);
   options.noise = simulation::NoiseOptions::named("realistic");
   options.seed = 3;
@@ -33,17 +33,18 @@ SimulationOptions block() {
 }
 
 const SimulatedStrips& strips() {
-  static const SimulatedStrips made(block());
+  static const SimulatedStrips made(smallBlock());
   return made;
 }
 
 const std::vector<ControlPoint>& control() {
-  static const std::vector<ControlPoint> points = simulation::Simulator(block()).controlPoints();
+  static const std::vector<ControlPoint> points =
+      simulation::Simulator(smallBlock()).controlPoints();
   return points;
 }
 
 /// Enough for what is compared here, in a fifth of the time.
-CalibrationOptions quick(std::vector<ControlPoint> points = {}) {
+CalibrationOptions quickOptions(std::vector<ControlPoint> points = {}) {
   CalibrationOptions options;
   options.settings.candidates = 20'000;
   options.control = std::move(points);
@@ -56,7 +57,7 @@ void addStrips(SystemCalibration<PointT>& calibration) {
     calibration.addInputStrip(test::cloudOf<PointT>(*made.strip.cloud), made.strip.frame,
                               made.strip.id);
   calibration.setTrajectory(strips().flight);
-  calibration.setOptions(quick(control()));
+  calibration.setOptions(quickOptions(control()));
 }
 
 const CalibrationResult& fromClouds() {
@@ -88,7 +89,7 @@ TEST(SystemCalibration, IsWithinItsIntervalsOfTheTruth) {
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate = result[info.parameter];
     if (estimate.status != ParameterStatus::estimated) continue;
-    const double truth = block().bias[indexOf(info.parameter)];
+    const double truth = smallBlock().bias[indexOf(info.parameter)];
     EXPECT_LT(std::abs(estimate.bias - truth), 4.0 * estimate.std) << info.name;
     largest = std::max(largest, std::abs(truth) / estimate.std);
     ++estimated;
@@ -105,7 +106,8 @@ TEST(SystemCalibration, EqualsTheCalibrationOfPcdFilesToTheLastBit) {
     savePcd(files.back(), made.strip);
   }
   SurveyReader survey(files, 0);
-  const SurveyCalibration of_files = calibrateSurvey(survey, strips().flight, quick(control()));
+  const SurveyCalibration of_files =
+      calibrateSurvey(survey, strips().flight, quickOptions(control()));
   EXPECT_EQ(textOf(of_files.result), textOf(fromClouds()));
   EXPECT_EQ(of_files.result.inputs, files);
   EXPECT_EQ(fromClouds().inputs.front(), "strip 1");
@@ -120,10 +122,11 @@ TEST(SystemCalibration, TakesAPointTypeOfOnesOwn) {
 }
 
 TEST(SystemCalibration, RoundingToFloatsIsWithinTheStandardDeviation) {
-  const SimulatedSurvey survey(block());
-  const CalibrationResult exact = survey.calibrate(quick().settings);  // of double coordinates
+  const SimulatedSurvey survey(smallBlock());
+  const CalibrationResult exact =
+      survey.calibrate(quickOptions().settings);  // of double coordinates
   SystemCalibration<PointLidar> calibration;
-  const LocalFrame frame = LocalFrame::around(block().origin);
+  const LocalFrame frame = LocalFrame::around(smallBlock().origin);
   for (std::size_t i = 0; i < survey.strips.size(); ++i) {
     pcl::PointCloud<PointLidar>::Ptr cloud(new pcl::PointCloud<PointLidar>);
     for (const LidarReturn& p : survey.strips[i]) {
@@ -135,7 +138,7 @@ TEST(SystemCalibration, RoundingToFloatsIsWithinTheStandardDeviation) {
     }
     calibration.addInputStrip(cloud, frame, std::to_string(i + 1));
   }
-  calibration.setOptions(quick(survey.control));
+  calibration.setOptions(quickOptions(survey.control));
   calibration.setTrajectory(survey.flight(false));
   calibration.calibrate();
   for (const SystemParameterInfo& info : systemParameters()) {
@@ -171,7 +174,7 @@ TEST(SystemCalibration, JoinsPartsAndLeavesOutPointsThatAreNotFinite) {
   }
   for (SystemCalibration<PointLidar>* calibration : {&whole, &parts}) {
     calibration->setTrajectory(strips().flight);
-    CalibrationOptions options = quick();
+    CalibrationOptions options = quickOptions();
     options.settings.estimate = {SystemParameter::boresight_roll};
     calibration->setOptions(options);
     calibration->calibrate();
@@ -190,7 +193,7 @@ TEST(SystemCalibration, AlignsTimes) {
     calibration.addInputStrip(cloud, made.strip.frame, made.strip.id);
   }
   calibration.setTrajectory(strips().flight);
-  calibration.setOptions(quick(control()));
+  calibration.setOptions(quickOptions(control()));
   EXPECT_NE(test::messageOf<InputError>([&] { calibration.calibrate(); }).find("no strip is left"),
             std::string::npos);
   EXPECT_FALSE(calibration.hasConverged());

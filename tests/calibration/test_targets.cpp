@@ -24,11 +24,11 @@ using test::expectTruth;
 using test::SimulatedSurvey;
 
 constexpr double kRadius = 1.0;
-const SurveyArea kArea{{15.0, 15.0}, 20.0, 6.0};
+const SurveyArea kTargetArea{{15.0, 15.0}, 20.0, 6.0};
 const Eigen::Vector3d kTarget(25.3, 24.8, 100.0);
 
 /// Oblique to the axes, with attitude that changes.
-std::shared_ptr<const Trajectory> flight() {
+std::shared_ptr<const Trajectory> obliqueFlight() {
   std::vector<TrajectorySample> samples;
   const Eigen::Vector2d course(std::sin(0.5), std::cos(0.5));
   for (int i = 0; i <= 200; ++i) {
@@ -77,11 +77,11 @@ ControlPoint target() {
   return point;
 }
 
-AreaMatcher matcherOf(const std::vector<std::vector<LidarReturn>>& strips) {
-  AreaMatcher matcher(kArea, strips.size());
+AreaMatcher matcherOfStrips(const std::vector<std::vector<LidarReturn>>& strips) {
+  AreaMatcher matcher(kTargetArea, strips.size());
   for (std::size_t i = 0; i < strips.size(); ++i)
     for (const LidarReturn& p : strips[i]) matcher.add(static_cast<int>(i), p);
-  matcher.prepare(SurfaceCriterion(), 0, 0.001, *flight());
+  matcher.prepare(SurfaceCriterion(), 0, 0.001, *obliqueFlight());
   return matcher;
 }
 
@@ -96,9 +96,10 @@ Eigen::Vector3d differenceIn(const AreaObservations& found, int strip, const Sys
 TEST(Targets, ShowShiftsInThreeDimensions) {
   const Eigen::Vector3d shift(0.35, -0.6, 0.15);
   for (const double raised : {0.0, 1.2}) {
-    const AreaMatcher matcher = matcherOf({ground(1, shift, raised), ground(2, {0, 0, 0}, raised)});
+    const AreaMatcher matcher =
+        matcherOfStrips({ground(1, shift, raised), ground(2, {0, 0, 0}, raised)});
     const AreaObservations found =
-        matcher.matchControl({target()}, 2.0, *flight(), NoiseModel(), 0.01);
+        matcher.matchControl({target()}, 2.0, *obliqueFlight(), NoiseModel(), 0.01);
     ASSERT_EQ(found.size(), 6U);
     EXPECT_LT((differenceIn(found, 0, SystemVector::Zero()) + shift).cwiseAbs().maxCoeff(), 0.10);
     EXPECT_LT(differenceIn(found, 1, SystemVector::Zero()).cwiseAbs().maxCoeff(), 0.10);
@@ -117,12 +118,13 @@ TEST(Targets, ShowShiftsInThreeDimensions) {
 
 TEST(Targets, AreNotUsedWhereTheyAreNotSeen) {
   const AreaMatcher matcher =
-      matcherOf({ground(1, {0, 0, 0}, 0.0, 100.0F), ground(2, {0, 0, 0}, 0.0)});
+      matcherOfStrips({ground(1, {0, 0, 0}, 0.0, 100.0F), ground(2, {0, 0, 0}, 0.0)});
   const AreaObservations found =
-      matcher.matchControl({target()}, 2.0, *flight(), NoiseModel(), 0.01);
+      matcher.matchControl({target()}, 2.0, *obliqueFlight(), NoiseModel(), 0.01);
   ASSERT_EQ(found.size(), 3U);
   for (const PairObservation& o : found) EXPECT_EQ(o.b, 1);
-  const std::vector<TargetInStrip> all = matcher.targetsIn(target(), 2.0, *flight(), NoiseModel());
+  const std::vector<TargetInStrip> all =
+      matcher.targetsIn(target(), 2.0, *obliqueFlight(), NoiseModel());
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].status, TargetStatus::no_contrast);
   EXPECT_EQ(all[1].status, TargetStatus::located);
@@ -130,8 +132,8 @@ TEST(Targets, AreNotUsedWhereTheyAreNotSeen) {
 
 /// The rows are the derivatives of the target's place in the corrected points, located anew.
 TEST(Targets, RowsAreDerivatives) {
-  const auto trajectory = flight();
-  AreaMatcher matcher = matcherOf({ground(3, {0, 0, 0}, 0.0)});
+  const auto trajectory = obliqueFlight();
+  AreaMatcher matcher = matcherOfStrips({ground(3, {0, 0, 0}, 0.0)});
   const AreaObservations here =
       matcher.matchControl({target()}, 2.0, *trajectory, NoiseModel(), 0.01);
   ASSERT_EQ(here.size(), 3U);
@@ -159,7 +161,7 @@ TEST(Targets, RowsAreDerivatives) {
 }
 
 /// A simulated block with targets of 3 m, about three points on them in each square metre.
-SimulationOptions small(std::uint64_t seed) {
+SimulationOptions blockWithTargets(std::uint64_t seed) {
   SimulationOptions options = SimulationOptions::preset("small", 0.6, 2.0);
   options.noise = NoiseOptions::named("realistic");
   options.seed = seed;
@@ -169,7 +171,7 @@ SimulationOptions small(std::uint64_t seed) {
   return options;
 }
 
-CalibrationResult calibrated(const SimulatedSurvey& survey) {
+CalibrationResult calibratedOnTargets(const SimulatedSurvey& survey) {
   SimulatedSurvey::Request request;
   request.rigorous = true;
   request.settings.candidates = 4'000;
@@ -184,9 +186,9 @@ TEST(Targets, FitWithinTheirStandardDeviations) {
   RunningStatistics standardised, errors, std;
   std::size_t heights = 0;
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const SimulatedSurvey survey(small(seed));
+    const SimulatedSurvey survey(blockWithTargets(seed));
     ASSERT_EQ(survey.control.size(), 10U);
-    const CalibrationResult result = calibrated(survey);
+    const CalibrationResult result = calibratedOnTargets(survey);
     EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
     expectTruth(result, survey.bias);
     EXPECT_EQ(result[P::range_bias].status, ParameterStatus::estimated);
@@ -210,10 +212,10 @@ TEST(Targets, FitWithinTheirStandardDeviations) {
 
 /// Strips that agree with each other do not show it.
 TEST(Targets, ShowADatumInPlan) {
-  SimulatedSurvey survey(small(1));
+  SimulatedSurvey survey(blockWithTargets(1));
   const Eigen::Vector3d shift(0.25, -0.15, 0.0);
   for (ControlPoint& point : survey.control) point.position -= shift;
-  const CalibrationResult result = calibrated(survey);
+  const CalibrationResult result = calibratedOnTargets(survey);
   expectTruth(result, survey.bias);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero(), weights = Eigen::Vector2d::Zero();
   for (const ControlPointFit& fit : result.control_points) {
@@ -234,16 +236,16 @@ TEST(Targets, ShowADatumInPlan) {
 /// Parallel lines in one direction: the lever arm across the flight moves all of them alike.
 TEST(Targets, DetermineTheLeverArm) {
   for (const std::uint64_t seed : {4U, 5U, 6U}) {
-    SimulationOptions options = small(seed);
+    SimulationOptions options = blockWithTargets(seed);
     std::vector<simulation::PlannedLine> lines(options.lines.begin() + 2, options.lines.end());
     for (simulation::PlannedLine& line : lines)
       if (line.start.x() > line.end.x()) std::swap(line.start, line.end);
     options.lines = lines;
     SimulatedSurvey survey(options);
-    const CalibrationResult with = calibrated(survey);
+    const CalibrationResult with = calibratedOnTargets(survey);
     survey.control.resize(1);
     survey.control[0].kind = ControlPoint::Kind::height;
-    const CalibrationResult without = calibrated(survey);
+    const CalibrationResult without = calibratedOnTargets(survey);
     expectTruth(with, survey.bias);
     for (const P p : {P::lever_arm_x, P::boresight_pitch}) {
       EXPECT_EQ(with[p].status, ParameterStatus::estimated) << infoOf(p).name;

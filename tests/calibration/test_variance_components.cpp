@@ -212,7 +212,7 @@ TEST(VarianceComponents, UndeterminedOnesAreThoseOfTheModel) {
 }
 
 /// Variance over that of the model of the sum of the components of an error.
-double allOf(const VarianceFactors& levels, double VarianceFactors::Trajectory::*kind) {
+double sumOf(const VarianceFactors& levels, double VarianceFactors::Trajectory::*kind) {
   const SharedErrorModel shares;
   return shares.constant_share * levels.constant.*kind + shares.smooth_share * levels.smooth.*kind +
          (1.0 - shares.constant_share - shares.smooth_share) * levels.gauss_markov.*kind;
@@ -250,18 +250,18 @@ VarianceFactors levelsOfRoll(double roll_arcsec) {
 TEST(VarianceComponents, AttitudeOfAnotherGradeIsFound) {
   const VarianceFactors found = levelsOfRoll(80.0);
   // Four strips: a variance is known to a factor of three.
-  EXPECT_GT(allOf(found, &VarianceFactors::Trajectory::roll_pitch), 30.0);
-  EXPECT_LT(allOf(found, &VarianceFactors::Trajectory::roll_pitch), 300.0);
-  EXPECT_GT(allOf(found, &VarianceFactors::Trajectory::heading), 10.0);
-  EXPECT_LT(allOf(found, &VarianceFactors::Trajectory::position), 16.1);
+  EXPECT_GT(sumOf(found, &VarianceFactors::Trajectory::roll_pitch), 30.0);
+  EXPECT_LT(sumOf(found, &VarianceFactors::Trajectory::roll_pitch), 300.0);
+  EXPECT_GT(sumOf(found, &VarianceFactors::Trajectory::heading), 10.0);
+  EXPECT_LT(sumOf(found, &VarianceFactors::Trajectory::position), 16.1);
 }
 
 /// Errors of the roll far below the model: those of the heading were expected to be as large as the
 /// model's, and the standard deviation of the boresight heading was three times too large.
 TEST(VarianceComponents, AttitudeOfABetterGradeIsFound) {
   const VarianceFactors found = levelsOfRoll(0.08);
-  EXPECT_LT(allOf(found, &VarianceFactors::Trajectory::roll_pitch), 0.03);
-  EXPECT_LT(allOf(found, &VarianceFactors::Trajectory::heading), 0.05);
+  EXPECT_LT(sumOf(found, &VarianceFactors::Trajectory::roll_pitch), 0.03);
+  EXPECT_LT(sumOf(found, &VarianceFactors::Trajectory::heading), 0.05);
 }
 
 }  // namespace

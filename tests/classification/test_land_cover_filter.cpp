@@ -11,7 +11,7 @@
 namespace pcl_als {
 namespace {
 
-const RasterGrid kGrid{512000.0, 5403000.0, 1.0, 10, 10, ""};
+const RasterGrid kCoverGrid{512000.0, 5403000.0, 1.0, 10, 10, ""};
 
 GaussianClass classAt(const std::string& name, double height, double intensity) {
   GaussianClass c;
@@ -27,8 +27,8 @@ std::shared_ptr<const PointClassifier> classifier() {
   const GaussianModel model{{"height", "intensity"},
                             {classAt("tree", 8.0, 50.0), classAt("grass", 0.0, 50.0)}};
   auto raster = std::make_shared<Raster>();
-  raster->grid = kGrid;
-  raster->bands = {{"terrain", std::vector<float>(kGrid.cells(), 300.0F)}};
+  raster->grid = kCoverGrid;
+  raster->bands = {{"terrain", std::vector<float>(kCoverGrid.cells(), 300.0F)}};
   return std::make_shared<PointClassifier>(std::make_shared<MaximumLikelihood>(model), raster);
 }
 

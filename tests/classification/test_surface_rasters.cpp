@@ -12,7 +12,7 @@ namespace pcl_als {
 namespace {
 
 constexpr std::uint8_t kGround = 2, kHouse = 6, kLeaves = 5;
-const RasterGrid kGrid{512000.0, 5403000.0, 1.0, 40, 30, "EPSG:25832"};
+const RasterGrid kSurfaceGrid{512000.0, 5403000.0, 1.0, 40, 30, "EPSG:25832"};
 
 SurfaceOptions optionsOf(SurfaceOptions::Interpolation interpolation) {
   SurfaceOptions options;
@@ -33,12 +33,12 @@ CellCounts countsOf(const std::vector<CellSource>& sources) {
 
 /// An inclined plane, a point in the middle of every \a step-th cell.
 double planeAt(double x, double y) {
-  return 300.0 + 0.1 * (x - kGrid.west) - 0.05 * (y - kGrid.north);
+  return 300.0 + 0.1 * (x - kSurfaceGrid.west) - 0.05 * (y - kSurfaceGrid.north);
 }
 void addPlane(SurfaceAccumulator& tile, int step, std::uint8_t code = kGround) {
-  for (int row = 0; row < kGrid.rows; row += step)
-    for (int column = 0; column < kGrid.columns; column += step) {
-      const double x = kGrid.centreX(column), y = kGrid.centreY(row);
+  for (int row = 0; row < kSurfaceGrid.rows; row += step)
+    for (int column = 0; column < kSurfaceGrid.columns; column += step) {
+      const double x = kSurfaceGrid.centreX(column), y = kSurfaceGrid.centreY(row);
       tile.add({x, y, planeAt(x, y), static_cast<float>(100 + column), 1, 1, code});
     }
 }
@@ -46,11 +46,11 @@ void addPlane(SurfaceAccumulator& tile, int step, std::uint8_t code = kGround) {
 // Heights of floats near their base are good to 2^-24 of 6 m; slope of the plane: atan of
 // sqrt(0.1^2 + 0.05^2) = 6.379 degrees.
 TEST(SurfaceRasters, APlaneStaysAPlane) {
-  SurfaceAccumulator tile(kGrid, {});
+  SurfaceAccumulator tile(kSurfaceGrid, {});
   addPlane(tile, 3);
   const SurfaceResult result = tile.compute();
   for (const auto& [column, row] : {std::pair(1, 1), std::pair(20, 14), std::pair(38, 26)}) {
-    const double z = planeAt(kGrid.centreX(column), kGrid.centreY(row));
+    const double z = planeAt(kSurfaceGrid.centreX(column), kSurfaceGrid.centreY(row));
     EXPECT_NEAR(at(result, "surface", column, row), z, 4e-5);
     EXPECT_NEAR(at(result, "terrain", column, row), z, 4e-5);
     EXPECT_NEAR(at(result, "height", column, row), 0.0, 1e-5);
@@ -61,18 +61,18 @@ TEST(SurfaceRasters, APlaneStaysAPlane) {
   const CellCounts counts = countsOf(result.surface_source);
   EXPECT_EQ(counts.measured, 14U * 10U);
   EXPECT_EQ(counts.empty, 2U * 40U);  // below the last row of points; columns end with one
-  EXPECT_EQ(counts.cells(), kGrid.cells());
+  EXPECT_EQ(counts.cells(), kSurfaceGrid.cells());
 }
 
 // By hand: highest first return, mean of first returns' intensities, mean of ground heights.
 TEST(SurfaceRasters, OneCellByHand) {
-  SurfaceAccumulator tile(kGrid, {});
-  const double x = kGrid.centreX(5), y = kGrid.centreY(5);
+  SurfaceAccumulator tile(kSurfaceGrid, {});
+  const double x = kSurfaceGrid.centreX(5), y = kSurfaceGrid.centreY(5);
   EXPECT_TRUE(tile.add({x, y, 310.0, 40.0F, 1, 2, kLeaves}));
   EXPECT_TRUE(tile.add({x + 0.2, y, 300.5, 10.0F, 2, 2, kGround}));
   EXPECT_TRUE(tile.add({x - 0.2, y, 300.25, 20.0F, 1, 1, kGround}));
   EXPECT_FALSE(tile.add({x, y, 900.0, 1.0F, 1, 1, 18}));
-  EXPECT_FALSE(tile.add({kGrid.west - 0.01, y, 300.0, 1.0F, 1, 1, kGround}));
+  EXPECT_FALSE(tile.add({kSurfaceGrid.west - 0.01, y, 300.0, 1.0F, 1, 1, kGround}));
   const SurfaceResult result = tile.compute();
   EXPECT_EQ(at(result, "surface", 5, 5), 310.0F);
   EXPECT_EQ(at(result, "terrain", 5, 5), 300.375F);
@@ -88,13 +88,13 @@ TEST(SurfaceRasters, OneCellByHand) {
 // By hand: a pulse of three echoes at 310, 304 and 301 m and a pulse of one at 301 m, of which the
 // second echo has no width. Mean 304 m, squares of the differences 36 + 0 + 9 + 9.
 TEST(SurfaceRasters, EchoesOfOneCellByHand) {
-  SurfaceAccumulator tile(kGrid, {});
-  const double x = kGrid.centreX(5), y = kGrid.centreY(5);
+  SurfaceAccumulator tile(kSurfaceGrid, {});
+  const double x = kSurfaceGrid.centreX(5), y = kSurfaceGrid.centreY(5);
   tile.add({x, y, 310.0, 40.0F, 1, 3, kLeaves, 5.5F});
   tile.add({x, y, 304.0, 20.0F, 2, 3, kLeaves});
   tile.add({x, y, 301.0, 10.0F, 3, 3, kGround, 4.5F});
   tile.add({x, y, 301.0, 60.0F, 1, 1, kGround, 4.1F});
-  tile.add({kGrid.centreX(8), y, 301.0, 60.0F, 1, 1, kGround});
+  tile.add({kSurfaceGrid.centreX(8), y, 301.0, 60.0F, 1, 1, kGround});
   const SurfaceResult result = tile.compute();
   EXPECT_EQ(at(result, "echoes_per_pulse", 5, 5), 2.0F);
   EXPECT_NEAR(at(result, "height_std", 5, 5), std::sqrt(54.0 / 4.0), 1e-5);
@@ -107,10 +107,10 @@ TEST(SurfaceRasters, EchoesOfOneCellByHand) {
 
 // Cells without returns have the values of their neighbours, linearly.
 TEST(SurfaceRasters, EchoesAreInterpolated) {
-  SurfaceAccumulator tile(kGrid, {});
-  for (int row = 0; row < kGrid.rows; row += 3)
-    for (int column = 0; column < kGrid.columns; column += 3)
-      tile.add({kGrid.centreX(column), kGrid.centreY(row), 300.0, 1.0F, 1,
+  SurfaceAccumulator tile(kSurfaceGrid, {});
+  for (int row = 0; row < kSurfaceGrid.rows; row += 3)
+    for (int column = 0; column < kSurfaceGrid.columns; column += 3)
+      tile.add({kSurfaceGrid.centreX(column), kSurfaceGrid.centreY(row), 300.0, 1.0F, 1,
                 static_cast<std::uint8_t>(1 + row / 3), kGround,
                 static_cast<float>(4.0 + 0.1 * column)});
   const SurfaceResult result = tile.compute();
@@ -122,10 +122,10 @@ TEST(SurfaceRasters, EchoesAreInterpolated) {
 // Of a 3 x 3 window around a spike of 9 m among zeros the plane is level at 1 m, the residuals are
 // 8 m once and -1 m eight times: RMS sqrt(72 / 9).
 TEST(SurfaceRasters, RoughnessOfASpikeByHand) {
-  SurfaceAccumulator tile(kGrid, {});
+  SurfaceAccumulator tile(kSurfaceGrid, {});
   for (int row = 0; row < 9; ++row)
     for (int column = 0; column < 9; ++column)
-      tile.add({kGrid.centreX(column), kGrid.centreY(row),
+      tile.add({kSurfaceGrid.centreX(column), kSurfaceGrid.centreY(row),
                 100.0 + (row == 4 && column == 4 ? 9.0 : 0.0), 1.0F, 1, 1, kGround});
   const SurfaceResult result = tile.compute();
   EXPECT_NEAR(at(result, "roughness", 4, 4), std::sqrt(8.0), 1e-5);
@@ -135,12 +135,12 @@ TEST(SurfaceRasters, RoughnessOfASpikeByHand) {
 // Four neighbours of an empty cell at distance 1 m with heights 1 to 4, four at sqrt(2) with 0:
 // (1 + 2 + 3 + 4) / (4 + 4 / 2).
 TEST(SurfaceRasters, InverseDistanceByHand) {
-  SurfaceAccumulator tile(kGrid, optionsOf(SurfaceOptions::Interpolation::inverse_distance));
+  SurfaceAccumulator tile(kSurfaceGrid, optionsOf(SurfaceOptions::Interpolation::inverse_distance));
   const int offsets[8][3] = {{1, 0, 1}, {-1, 0, 2}, {0, 1, 3},  {0, -1, 4},
                              {1, 1, 0}, {1, -1, 0}, {-1, 1, 0}, {-1, -1, 0}};
   for (const auto& o : offsets)
-    tile.add(
-        {kGrid.centreX(10 + o[0]), kGrid.centreY(10 + o[1]), 50.0 + o[2], 1.0F, 1, 1, kGround});
+    tile.add({kSurfaceGrid.centreX(10 + o[0]), kSurfaceGrid.centreY(10 + o[1]), 50.0 + o[2], 1.0F,
+              1, 1, kGround});
   const SurfaceResult result = tile.compute();
   EXPECT_NEAR(at(result, "surface", 10, 10), 50.0 + 10.0 / 6.0, 1e-5);
   // 6 m from the nearest point is within reach, farther is not.
@@ -152,11 +152,12 @@ TEST(SurfaceRasters, InverseDistanceByHand) {
 TEST(SurfaceRasters, WideHolesStayAndAreCounted) {
   for (const auto interpolation :
        {SurfaceOptions::Interpolation::tin, SurfaceOptions::Interpolation::inverse_distance}) {
-    SurfaceAccumulator tile(kGrid, optionsOf(interpolation));
-    for (int row = 0; row < kGrid.rows; ++row)
-      for (int column = 0; column < kGrid.columns; ++column)
+    SurfaceAccumulator tile(kSurfaceGrid, optionsOf(interpolation));
+    for (int row = 0; row < kSurfaceGrid.rows; ++row)
+      for (int column = 0; column < kSurfaceGrid.columns; ++column)
         if (std::abs(column - 20) > 8 || std::abs(row - 15) > 8)
-          tile.add({kGrid.centreX(column), kGrid.centreY(row), 300.0, 1.0F, 1, 1, kGround});
+          tile.add({kSurfaceGrid.centreX(column), kSurfaceGrid.centreY(row), 300.0, 1.0F, 1, 1,
+                    kGround});
     const SurfaceResult result = tile.compute();
     EXPECT_TRUE(std::isnan(at(result, "surface", 20, 15)));
     EXPECT_EQ(at(result, "terrain", 20, 15), 300.0F);
@@ -265,21 +266,21 @@ TEST(SurfaceRasters, TheGroundFilterFindsTheTerrainUnderHouses) {
 }
 
 TEST(SurfaceRasters, EmptyAndAlmostEmptyTiles) {
-  SurfaceAccumulator none(kGrid, {});
-  EXPECT_EQ(countsOf(none.compute().surface_source).empty, kGrid.cells());
-  SurfaceAccumulator line(kGrid, {});  // collinear: no triangles
+  SurfaceAccumulator none(kSurfaceGrid, {});
+  EXPECT_EQ(countsOf(none.compute().surface_source).empty, kSurfaceGrid.cells());
+  SurfaceAccumulator line(kSurfaceGrid, {});  // collinear: no triangles
   for (int i = 0; i < 5; ++i)
-    line.add({kGrid.centreX(3 * i), kGrid.centreY(4), 1.0, 1.0F, 1, 1, kGround});
+    line.add({kSurfaceGrid.centreX(3 * i), kSurfaceGrid.centreY(4), 1.0, 1.0F, 1, 1, kGround});
   EXPECT_EQ(countsOf(line.compute().surface_source).measured, 5U);
 }
 
 TEST(SurfaceRasters, RefusesImpossibleOptions) {
   SurfaceOptions options;
   options.surface_gap = -1.0;
-  EXPECT_THROW(SurfaceAccumulator(kGrid, options), UsageError);
+  EXPECT_THROW(SurfaceAccumulator(kSurfaceGrid, options), UsageError);
   options = SurfaceOptions();
   options.ground_classes.clear();
-  EXPECT_THROW(SurfaceAccumulator(kGrid, options), UsageError);
+  EXPECT_THROW(SurfaceAccumulator(kSurfaceGrid, options), UsageError);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 namespace pcl_als::app {
 namespace {
 
-CommandLine example() {
+CommandLine exampleLine() {
   CommandLine line("pcl_als_example", "shows options.", "FILE… -output OUT",
                    "pcl_als_example a.las");
   line.setArguments({{"", 0, Arguments::kAnyNumber}});
@@ -36,8 +36,8 @@ bool parse(CommandLine& line, std::vector<const char*> arguments) {
   return line.parse(static_cast<int>(arguments.size()), arguments.data());
 }
 
-std::string refusal(std::vector<const char*> arguments) {
-  CommandLine line = example();
+std::string refusalOfArguments(std::vector<const char*> arguments) {
+  CommandLine line = exampleLine();
   try {
     parse(line, std::move(arguments));
   } catch (const UsageError& error) {
@@ -48,7 +48,7 @@ std::string refusal(std::vector<const char*> arguments) {
 
 TEST(CommandLine, OneDashAndTwoAreTheSame) {
   for (const char* option : {"-threshold", "--threshold"}) {
-    CommandLine line = example();
+    CommandLine line = exampleLine();
     ASSERT_TRUE(parse(line, {"a.las", option, "0.25", "b.las"}));
     EXPECT_EQ(line.number("threshold"), 0.25);
     EXPECT_EQ(line.inputs(), (std::vector<std::string>{"a.las", "b.las"}));
@@ -56,7 +56,7 @@ TEST(CommandLine, OneDashAndTwoAreTheSame) {
 }
 
 TEST(CommandLine, DefaultsHoldUntilGiven) {
-  CommandLine line = example();
+  CommandLine line = exampleLine();
   ASSERT_TRUE(parse(line, {}));
   EXPECT_EQ(line.number("threshold"), 0.5);
   EXPECT_EQ(line.text("model"), "simple");
@@ -67,7 +67,7 @@ TEST(CommandLine, DefaultsHoldUntilGiven) {
 }
 
 TEST(CommandLine, ValuesMayBeNegativeOrFollowAnEqualsSign) {
-  CommandLine line = example();
+  CommandLine line = exampleLine();
   ASSERT_TRUE(parse(line, {"-threshold", "-3", "--model=full", "-invert"}));
   EXPECT_EQ(line.number("threshold"), -3.0);
   EXPECT_EQ(line.text("model"), "full");
@@ -75,28 +75,32 @@ TEST(CommandLine, ValuesMayBeNegativeOrFollowAnEqualsSign) {
 }
 
 TEST(CommandLine, RefusalsNameTheOption) {
-  EXPECT_NE(refusal({"-treshold", "1"}).find("treshold"), std::string::npos);
-  EXPECT_NE(refusal({"-threshold"}).find("threshold"), std::string::npos);
-  EXPECT_NE(refusal({"-threshold", "wide"}).find("threshold"), std::string::npos);
-  EXPECT_NE(refusal({"-thresh", "1"}).find("thresh"), std::string::npos);  // no abbreviations
-  EXPECT_NE(refusal({"-threads", "-1"}).find("threads"), std::string::npos);
-  EXPECT_NE(refusal({"-model", "half"}).find("'half' is none of simple, full"), std::string::npos);
-  EXPECT_NE(refusal({"-invert=1"}).find("invert"), std::string::npos);
-  EXPECT_NE(refusal({"-model", "full", "-model", "full"}).find("twice"), std::string::npos);
-  EXPECT_NE(refusal({"-control", "-invert"}).find("control"), std::string::npos);
-  EXPECT_EQ(refusal({"-threads", "2"}), "accepted");
+  EXPECT_NE(refusalOfArguments({"-treshold", "1"}).find("treshold"), std::string::npos);
+  EXPECT_NE(refusalOfArguments({"-threshold"}).find("threshold"), std::string::npos);
+  EXPECT_NE(refusalOfArguments({"-threshold", "wide"}).find("threshold"), std::string::npos);
+  EXPECT_NE(refusalOfArguments({"-thresh", "1"}).find("thresh"),
+            std::string::npos);  // no abbreviations
+  EXPECT_NE(refusalOfArguments({"-threads", "-1"}).find("threads"), std::string::npos);
+  EXPECT_NE(refusalOfArguments({"-model", "half"}).find("'half' is none of simple, full"),
+            std::string::npos);
+  EXPECT_NE(refusalOfArguments({"-invert=1"}).find("invert"), std::string::npos);
+  EXPECT_NE(refusalOfArguments({"-model", "full", "-model", "full"}).find("twice"),
+            std::string::npos);
+  EXPECT_NE(refusalOfArguments({"-control", "-invert"}).find("control"), std::string::npos);
+  EXPECT_EQ(refusalOfArguments({"-threads", "2"}), "accepted");
 }
 
 TEST(CommandLine, NumbersAreCheckedAgainstTheirRange) {
   for (const char* value : {"-11", "11", "nan", "inf", "1e3", ""})
-    EXPECT_NE(refusal({"-threshold", value}).find("-threshold"), std::string::npos) << value;
-  EXPECT_NE(refusal({"-threshold", "11"}).find("is not a number from -10 to 10 m"),
+    EXPECT_NE(refusalOfArguments({"-threshold", value}).find("-threshold"), std::string::npos)
+        << value;
+  EXPECT_NE(refusalOfArguments({"-threshold", "11"}).find("is not a number from -10 to 10 m"),
             std::string::npos);
 }
 
 TEST(CommandLine, NumberOfInputsIsChecked) {
   const auto parsed = [](std::vector<Arguments> forms, std::vector<const char*> arguments) {
-    CommandLine line = example();
+    CommandLine line = exampleLine();
     line.setArguments(std::move(forms));
     return parse(line, std::move(arguments));
   };
@@ -108,7 +112,7 @@ TEST(CommandLine, NumberOfInputsIsChecked) {
 }
 
 TEST(CommandLine, AListEndsAtOptionsAndPointFiles) {
-  CommandLine line = example();
+  CommandLine line = exampleLine();
   ASSERT_TRUE(parse(line, {"-flight", "a.las", "b.csv", "c.las", "-flight=d.csv", "-invert"}));
   EXPECT_EQ(line.list("flight"), (std::vector<std::string>{"a.las", "b.csv", "d.csv"}));
   EXPECT_EQ(line.text("flight"), "a.las,b.csv,d.csv");
@@ -116,7 +120,7 @@ TEST(CommandLine, AListEndsAtOptionsAndPointFiles) {
 }
 
 TEST(CommandLine, ReadingAnAbsentOptionIsWrongUsage) {
-  CommandLine line = example();
+  CommandLine line = exampleLine();
   ASSERT_TRUE(parse(line, {}));
   try {
     line.text("control");
@@ -129,7 +133,7 @@ TEST(CommandLine, ReadingAnAbsentOptionIsWrongUsage) {
 
 TEST(CommandLine, RelationsOfOptionsAreChecked) {
   const auto parsed = [](std::vector<const char*> arguments) {
-    CommandLine line = example();
+    CommandLine line = exampleLine();
     line.exclude({"control", "flight"}, true);
     line.makeDependent("invert", "control");
     return parse(line, std::move(arguments));
@@ -157,37 +161,40 @@ TEST(CommandLine, AnOutputIsNoInputAndNoOtherOutput) {
   for (const char* name : {"control.json", "./control.json", "link.json", "twin.json",
                            "../command_line/control.json"}) {
     const std::string output = (folder / name).string();
-    EXPECT_NE(refusal({"-control", control.c_str(), "-output", output.c_str()})
+    EXPECT_NE(refusalOfArguments({"-control", control.c_str(), "-output", output.c_str()})
                   .find("is also an input (-control)"),
               std::string::npos)
         << name;
-    EXPECT_NE(refusal({control.c_str(), "-output", output.c_str()}).find("is also an input"),
-              std::string::npos);
+    EXPECT_NE(
+        refusalOfArguments({control.c_str(), "-output", output.c_str()}).find("is also an input"),
+        std::string::npos);
   }
   const std::string inside = folder / "part.csv";
   const std::string here = folder.string(), html = folder / "x.json";
-  EXPECT_NE(refusal({"-control", inside.c_str(), "-report", here.c_str()}).find("is also an input"),
+  EXPECT_NE(refusalOfArguments({"-control", inside.c_str(), "-report", here.c_str()})
+                .find("is also an input"),
             std::string::npos);
-  EXPECT_EQ(refusal({"-output", html.c_str()}), "accepted");
-  EXPECT_NE(refusal({"-output", (folder / "x.txt").c_str()}).find("does not end in .json"),
-            std::string::npos);
-  EXPECT_NE(refusal({"-output", here.c_str()}).find(".json"), std::string::npos);
+  EXPECT_EQ(refusalOfArguments({"-output", html.c_str()}), "accepted");
+  EXPECT_NE(
+      refusalOfArguments({"-output", (folder / "x.txt").c_str()}).find("does not end in .json"),
+      std::string::npos);
+  EXPECT_NE(refusalOfArguments({"-output", here.c_str()}).find(".json"), std::string::npos);
 }
 
 TEST(CommandLine, AReportReplacesNoFileOfTheUser) {
   const std::filesystem::path folder = folderWith({"part7.csv", "other.csv"});
   const std::string here = folder.string();
-  EXPECT_NE(refusal({"-report", here.c_str()}).find("part7.csv: would be replaced"),
+  EXPECT_NE(refusalOfArguments({"-report", here.c_str()}).find("part7.csv: would be replaced"),
             std::string::npos);
   std::filesystem::remove(folder / "part7.csv");
-  EXPECT_EQ(refusal({"-report", here.c_str()}), "accepted");
+  EXPECT_EQ(refusalOfArguments({"-report", here.c_str()}), "accepted");
 }
 
 TEST(CommandLine, WhatTheCommandReadsStaysProtected) {
   const std::filesystem::path folder = folderWith({"control.csv"});
   const std::string control = folder / "control.csv";
   {
-    CommandLine line = example();
+    CommandLine line = exampleLine();
     ASSERT_TRUE(parse(line, {"-control", control.c_str()}));
     EXPECT_THROW(writeFile(control, "new"), UsageError);
   }
@@ -196,7 +203,7 @@ TEST(CommandLine, WhatTheCommandReadsStaysProtected) {
 
 TEST(CommandLine, HelpHasEveryOptionWithItsDefault) {
   for (const char* option : {"-h", "-help", "--help"}) {
-    CommandLine line = example();
+    CommandLine line = exampleLine();
     testing::internal::CaptureStdout();
     EXPECT_FALSE(parse(line, {option}));
     const std::string help = testing::internal::GetCapturedStdout();
@@ -207,7 +214,7 @@ TEST(CommandLine, HelpHasEveryOptionWithItsDefault) {
 }
 
 TEST(CommandLine, HelpListsNeededOptionsFirstInEachGroup) {
-  CommandLine line = example();
+  CommandLine line = exampleLine();
   {
     const OptionGroup group(line, Group::priors);
     line.addNumber("sigma", "a standard deviation", {}, {0.0, 1.0, "m"});
@@ -232,7 +239,7 @@ TEST(CommandLine, HelpListsNeededOptionsFirstInEachGroup) {
 
 /// An option that has had two names, one of them with another unit.
 CommandLine renamed() {
-  CommandLine line = example();
+  CommandLine line = exampleLine();
   line.addNumber("count", "a number", {}, {0.0, 100.0, "thousands"})
       .formerly("number", 1e-3)
       .formerly("amount");
@@ -276,7 +283,7 @@ TEST(CommandLine, FormerNamesAreOptionsLikeOthers) {
 TEST(Run, TurnsExceptionsIntoOneLineAndAStatus) {
   const auto status = [](const auto& error) {
     testing::internal::CaptureStderr();
-    const int result = run(example(), [&]() -> int { throw error; });
+    const int result = run(exampleLine(), [&]() -> int { throw error; });
     return std::make_pair(result, testing::internal::GetCapturedStderr());
   };
   EXPECT_EQ(status(UsageError("option -x")),
@@ -285,7 +292,7 @@ TEST(Run, TurnsExceptionsIntoOneLineAndAStatus) {
             std::make_pair(2, std::string("pcl_als_example: a.las: empty\n")));
   EXPECT_EQ(status(std::bad_alloc()).first, 2);
   EXPECT_EQ(status(std::runtime_error("other")).first, 2);
-  EXPECT_EQ(run(example(), [] { return 3; }), 3);
+  EXPECT_EQ(run(exampleLine(), [] { return 3; }), 3);
 }
 
 TEST(SplitList, TrimsAndDropsEmptyParts) {

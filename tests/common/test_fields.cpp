@@ -77,7 +77,7 @@ const Fields<Tree>& treeFields() {
   return fields;
 }
 
-Tree example() {
+Tree exampleTree() {
   Tree tree;
   tree.leaves = {{"a", 0.25, 3}, {"b", -0.5, std::nullopt}};
   tree.nested = {{1.0, 2.0}, {}};
@@ -85,8 +85,8 @@ Tree example() {
 }
 
 /// The message of reading the example with one value changed.
-std::string refusal(std::string_view key, FieldValue value) {
-  FieldValue file = treeFields().write(example());
+std::string refusalOfValue(std::string_view key, FieldValue value) {
+  FieldValue file = treeFields().write(exampleTree());
   file.set(key, std::move(value));
   Tree tree;
   try {
@@ -98,7 +98,7 @@ std::string refusal(std::string_view key, FieldValue value) {
 }
 
 TEST(Fields, ValuesByNameKeepTheirOrder) {
-  Tree tree = example();
+  Tree tree = exampleTree();
   tree.named = {{"second", {"b", 0.25, 3}}, {"first", {"a", 0.5, 1}}};
   tree.sizes = {{"x", 2.0}};
   const FieldValue file = treeFields().write(tree);
@@ -110,9 +110,9 @@ TEST(Fields, ValuesByNameKeepTheirOrder) {
   EXPECT_EQ(treeFields().write(read), file);
   EXPECT_EQ(read.named.at(1).second.name, "a");
   EXPECT_EQ(read.sizes.at("x"), 2.0);
-  EXPECT_NE(refusal("sizes_m", FieldValue::Object{{"y", "large"}}).find("'sizes_m.y'"),
+  EXPECT_NE(refusalOfValue("sizes_m", FieldValue::Object{{"y", "large"}}).find("'sizes_m.y'"),
             std::string::npos);
-  EXPECT_NE(refusal("named", 3).find("must be an object"), std::string::npos);
+  EXPECT_NE(refusalOfValue("named", 3).find("must be an object"), std::string::npos);
   const FieldValue schema = schemaOf(treeFields(), "tree.json");
   const FieldValue* sizes = schema.find("properties")->find("sizes_m");
   EXPECT_EQ(*sizes->find("additionalProperties")->find("type"),
@@ -120,7 +120,7 @@ TEST(Fields, ValuesByNameKeepTheirOrder) {
 }
 
 TEST(Fields, WriteAndReadTheSameValues) {
-  Tree tree = example();
+  Tree tree = exampleTree();
   tree.evergreen = true;
   tree.remark = "x";
   tree.colour = Colour::red;
@@ -142,7 +142,7 @@ TEST(Fields, WriteAndReadTheSameValues) {
 }
 
 TEST(Fields, UnknownValuesAreNullAndConditionalOnesAbsent) {
-  Tree tree = example();
+  Tree tree = exampleTree();
   tree.rings = 0;
   const FieldValue file = treeFields().write(tree);
   EXPECT_TRUE(file.find("old")->isNull());
@@ -154,7 +154,7 @@ TEST(Fields, UnknownValuesAreNullAndConditionalOnesAbsent) {
 }
 
 TEST(Fields, FieldsThatAreNotDescribedAreIgnored) {
-  EXPECT_EQ(refusal("not_described", FieldValue(3)), "");
+  EXPECT_EQ(refusalOfValue("not_described", FieldValue(3)), "");
 }
 
 TEST(Fields, DamagedFieldsAreNamedWithTheirPath) {
@@ -163,29 +163,30 @@ TEST(Fields, DamagedFieldsAreNamedWithTheirPath) {
   leaf.set("angle_deg", "steep");
   leaf.set("level", FieldValue());
   FieldValue::List leaves{
-      treeFields().write(example()).find("leaves")->as<FieldValue::List>()->front()};
+      treeFields().write(exampleTree()).find("leaves")->as<FieldValue::List>()->front()};
   leaves.push_back(leaf);
-  EXPECT_EQ(refusal("leaves", leaves), "tree.json: 'leaves[1].angle_deg' must be a number");
+  EXPECT_EQ(refusalOfValue("leaves", leaves), "tree.json: 'leaves[1].angle_deg' must be a number");
   leaves[1].set("angle_deg", 90.5);
   EXPECT_EQ(
-      refusal("leaves", leaves),
+      refusalOfValue("leaves", leaves),
       "tree.json: 'leaves[1].angle_deg' is out of range: 90.5 deg is not between -90 and 90 deg");
   leaves[1] = FieldValue(FieldValue::Object());
-  EXPECT_EQ(refusal("leaves", leaves), "tree.json: 'leaves[1].name' is missing");
-  EXPECT_EQ(refusal("leaves", 3), "tree.json: 'leaves' must be a list");
-  EXPECT_EQ(refusal("colour", "blue"), "tree.json: 'colour' is 'blue'; it must be red or green");
-  EXPECT_EQ(refusal("height_m", FieldValue()), "tree.json: 'height_m' must be a number");
-  EXPECT_EQ(refusal("height_m", -1.0), "tree.json: 'height_m' must not be negative");
-  EXPECT_EQ(refusal("evergreen", 1), "tree.json: 'evergreen' must be true or false");
-  EXPECT_EQ(refusal("rings", -1), "tree.json: 'rings' must be a whole number, 0 or more");
-  EXPECT_EQ(refusal("balance", 0.5), "tree.json: 'balance' must be a whole number");
-  EXPECT_EQ(refusal("place_m", FieldValue::List{1.0}),
+  EXPECT_EQ(refusalOfValue("leaves", leaves), "tree.json: 'leaves[1].name' is missing");
+  EXPECT_EQ(refusalOfValue("leaves", 3), "tree.json: 'leaves' must be a list");
+  EXPECT_EQ(refusalOfValue("colour", "blue"),
+            "tree.json: 'colour' is 'blue'; it must be red or green");
+  EXPECT_EQ(refusalOfValue("height_m", FieldValue()), "tree.json: 'height_m' must be a number");
+  EXPECT_EQ(refusalOfValue("height_m", -1.0), "tree.json: 'height_m' must not be negative");
+  EXPECT_EQ(refusalOfValue("evergreen", 1), "tree.json: 'evergreen' must be true or false");
+  EXPECT_EQ(refusalOfValue("rings", -1), "tree.json: 'rings' must be a whole number, 0 or more");
+  EXPECT_EQ(refusalOfValue("balance", 0.5), "tree.json: 'balance' must be a whole number");
+  EXPECT_EQ(refusalOfValue("place_m", FieldValue::List{1.0}),
             "tree.json: 'place_m' must have 2 values, has 1");
-  EXPECT_EQ(refusal("bud", FieldValue::List{}), "tree.json: 'bud' must be an object");
+  EXPECT_EQ(refusalOfValue("bud", FieldValue::List{}), "tree.json: 'bud' must be an object");
 }
 
 TEST(Fields, FieldsThatMayBeMissingKeepTheirValue) {
-  const FieldValue written = treeFields().write(example());
+  const FieldValue written = treeFields().write(exampleTree());
   FieldValue::Object file = *written.as<FieldValue::Object>();
   file.erase(file.begin() + 3);  // rings
   const FieldValue without = file;
@@ -200,7 +201,7 @@ TEST(Fields, FieldsThatMayBeMissingKeepTheirValue) {
 }
 
 TEST(Fields, ColumnsOfCsvFiles) {
-  Tree tree = example();
+  Tree tree = exampleTree();
   tree.remark = "a, \"b\"";
   EXPECT_EQ(treeFields().csvHeader(), "height_m,unknown_m,note,colour\n");
   EXPECT_EQ(treeFields().csvLine(tree), "1.50,,\"a, \"\"b\"\"\",green\n");

@@ -33,7 +33,7 @@ void touch(const fs::path& path) {
   fs::last_write_time(path, fs::last_write_time(path) + std::chrono::seconds(2));
 }
 
-std::string refusal(const fs::path& path, const ContentLimits& limits = kTableLimits) {
+std::string refusalOfFile(const fs::path& path, const ContentLimits& limits = kTableLimits) {
   return test::messageOf<InputError>([&] { readWholeFile(path, limits); });
 }
 
@@ -53,10 +53,11 @@ TEST(WholeFile, IsReadAsItIs) {
 
 TEST(WholeFile, OtherKindsAreRefusedBeforeTheyAreRead) {
   const fs::path folder = test::scratch("whole_file_kinds");
-  expectPart(refusal(folder / "none.csv"), "none.csv: cannot be opened: there is no such file");
-  expectPart(refusal(folder), ": is a folder, not a file");
-  expectPart(refusal("/dev/zero"), "/dev/zero: is a device, not a file");
-  expectPart(refusal("/dev/zero", kBinaryLimits), "/dev/zero: is a device, not a file");
+  expectPart(refusalOfFile(folder / "none.csv"),
+             "none.csv: cannot be opened: there is no such file");
+  expectPart(refusalOfFile(folder), ": is a folder, not a file");
+  expectPart(refusalOfFile("/dev/zero"), "/dev/zero: is a device, not a file");
+  expectPart(refusalOfFile("/dev/zero", kBinaryLimits), "/dev/zero: is a device, not a file");
 }
 
 TEST(WholeFile, ASparseFileOfAnySizeIsRefusedAtOnce) {
@@ -64,11 +65,11 @@ TEST(WholeFile, ASparseFileOfAnySizeIsRefusedAtOnce) {
   put(path, "{");
   fs::resize_file(path, std::uintmax_t{68} << 30U);
   for (const ContentLimits& limits : {kTableLimits, kGridLimits, kJsonLimits, kBinaryLimits}) {
-    expectPart(refusal(path, limits), "has 73015 MB, more than the ");
+    expectPart(refusalOfFile(path, limits), "has 73015 MB, more than the ");
   }
   // One within the limit of its size has zeros instead of text.
   fs::resize_file(path, std::uintmax_t{2} << 30U);
-  expectPart(refusal(path), "is no text, because it has a zero byte");
+  expectPart(refusalOfFile(path), "is no text, because it has a zero byte");
 }
 
 TEST(WholeFile, ALineHasALimit) {
@@ -77,9 +78,9 @@ TEST(WholeFile, ALineHasALimit) {
   put(path, "a\n" + longest + "\nb\n" + longest);
   EXPECT_EQ(readWholeFile(path, kTableLimits).size(), 2 * longest.size() + 5);
   put(path, "a\n" + longest + "x\nb");
-  expectPart(refusal(path), "a line of more than 1048576 characters");
+  expectPart(refusalOfFile(path), "a line of more than 1048576 characters");
   put(path, "a\n" + longest + longest + longest);
-  expectPart(refusal(path), "a line of more than 1048576 characters");
+  expectPart(refusalOfFile(path), "a line of more than 1048576 characters");
   EXPECT_EQ(readWholeFile(path, kJsonLimits).size(), 3 * longest.size() + 2);
 }
 
@@ -108,7 +109,7 @@ std::string readPiped(const std::string& text, const ContentLimits& limits) {
 TEST(WholeFile, APipeIsReadUpToTheLimit) {
   const fs::path path = test::scratch("whole_file_pipe") / "pipe";
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
-  expectPart(refusal(path), "is a pipe into which no program writes");
+  expectPart(refusalOfFile(path), "is a pipe into which no program writes");
   const auto before = std::signal(SIGPIPE, SIG_IGN);  // the reader stops at the limit
   const std::string text(300000, 'x');
   EXPECT_EQ(readPiped(text, kTableLimits), text);
@@ -162,7 +163,7 @@ TEST(UnchangedInputs, CompareTheReadingsOfAJob) {
     const UnchangedInputs nested;
     touch(path);
   }
-  expectPart(refusal(path), "a.csv: was changed while it was read");
+  expectPart(refusalOfFile(path), "a.csv: was changed while it was read");
   // Written by the program itself.
   writeFile(path, "other");
   EXPECT_EQ(readWholeFile(path, kTableLimits), "other");

@@ -12,6 +12,9 @@
 
 namespace pcl_als::test {
 
+/// Of the swaths of these tests, metres.
+inline const Eigen::Vector3d kOrigin(583390.0, 5283100.0, 500.0);
+
 /// A position at a time, east-north-up.
 struct SwathPoint {
   double time;

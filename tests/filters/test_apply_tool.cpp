@@ -25,7 +25,8 @@
 namespace pcl_als {
 namespace {
 
-const Eigen::Vector3d kOrigin(583390.0, 5283100.0, 500.0);
+using test::kOrigin;
+
 constexpr double kWeekStart = 2139 * 604800.0 - 1e9;  // adjusted standard time
 constexpr double kFlightStart = 230000.0;             // seconds of that week
 constexpr const char* kBiases =

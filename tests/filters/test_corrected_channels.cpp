@@ -8,6 +8,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/filters/impl/system_bias_correction.hpp>
 
+#include "filter_checks.h"
 #include "swath.h"
 
 /// A point type without the fields by which systems are told apart.
@@ -36,18 +37,18 @@ POINT_CLOUD_REGISTER_POINT_STRUCT(BeamPoint, (float, x, x)(float, y, y)(float, z
 namespace pcl_als {
 namespace {
 
+using test::kOrigin;
+using test::refusalOf;
 using Cloud = pcl::PointCloud<PointLidar>;
 
-const Eigen::Vector3d kOrigin(583390.0, 5283100.0, 500.0);
-
 /// The points of a strip, half of them of channel 4 and half of channel 5.
-struct Fixture {
+struct ChannelFilter {
   LocalFrame frame = LocalFrame::around(kOrigin);
   std::shared_ptr<const Trajectory> trajectory = test::flownNorth(kOrigin, 20.0);
   Cloud::Ptr cloud{new Cloud};
   SystemBiasCorrection<PointLidar> filter;
 
-  Fixture() {
+  ChannelFilter() {
     for (const test::SwathPoint& from : test::swath(kOrigin, 20.0, 5000)) {
       PointLidar point;
       point.getVector3fMap() = frame.toLocal(from.ground);
@@ -61,16 +62,6 @@ struct Fixture {
     filter.setInputCloud(cloud);
   }
 };
-
-std::string messageOf(SystemBiasCorrection<PointLidar>& filter) {
-  Cloud corrected;
-  try {
-    filter.filter(corrected);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return {};
-}
 
 /// Two systems, of which only that of channel 5 has biases; the channel is in \a field.
 CalibrationResult ofChannels(const std::string& field) {
@@ -93,7 +84,7 @@ CalibrationResult ofChannels(const std::string& field) {
 }
 
 TEST(ChannelsOfClouds, ChannelsOfTheUserDataHaveTheirOwnBiases) {
-  Fixture f;
+  ChannelFilter f;
   Cloud all, corrected;
   f.filter.setBiases(test::typicalBiases());
   f.filter.filter(all);
@@ -109,7 +100,7 @@ TEST(ChannelsOfClouds, ChannelsOfTheUserDataHaveTheirOwnBiases) {
 
 // A field of any type, or a column beside the cloud, gives the channels as the user data do.
 TEST(ChannelsOfClouds, OtherFieldsAndColumnsGiveTheSame) {
-  Fixture f;
+  ChannelFilter f;
   Cloud expected, by_column;
   f.filter.setCalibration(ofChannels("user_data"));
   f.filter.filter(expected);
@@ -138,21 +129,21 @@ TEST(ChannelsOfClouds, OtherFieldsAndColumnsGiveTheSame) {
     ASSERT_EQ(by_field[i].getVector3fMap(), expected[i].getVector3fMap()) << i;
   }
   f.filter.setChannels({1, 2});
-  EXPECT_NE(messageOf(f.filter).find("2 channels"), std::string::npos) << messageOf(f.filter);
+  EXPECT_NE(refusalOf(f.filter).find("2 channels"), std::string::npos) << refusalOf(f.filter);
   (*beams)[7].beam = 300.0F;
   EXPECT_THROW(filter.filter(by_field), InputError);
 }
 
 TEST(ChannelsOfClouds, AFieldWithoutWhichPointsWouldGetTheBiasesOfAnotherChannelIsNamed) {
-  Fixture f;
+  ChannelFilter f;
   f.filter.setCalibration(ofChannels("beam"));
-  EXPECT_NE(messageOf(f.filter).find("field beam"), std::string::npos) << messageOf(f.filter);
+  EXPECT_NE(refusalOf(f.filter).find("field beam"), std::string::npos) << refusalOf(f.filter);
   // Without an id of their strip the points belong to none of the systems.
   f.filter.setCalibration(ofChannels("user_data"));
   for (PointLidar& point : *f.cloud) point.point_source_id = 0, point.user_data = 4;
-  EXPECT_NE(messageOf(f.filter).find("point source id"), std::string::npos) << messageOf(f.filter);
+  EXPECT_NE(refusalOf(f.filter).find("point source id"), std::string::npos) << refusalOf(f.filter);
   f.filter.setStripId("7");
-  EXPECT_EQ(messageOf(f.filter), "");
+  EXPECT_EQ(refusalOf(f.filter), "");
 
   pcl::PointCloud<PlainPoint>::Ptr cloud(new pcl::PointCloud<PlainPoint>(1, 1));
   SystemBiasCorrection<PlainPoint> filter;

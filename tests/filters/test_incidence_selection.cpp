@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -9,26 +8,19 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/filters/impl/incidence_selection.hpp>
 
+#include "filter_checks.h"
 #include "own_point.h"
 
 namespace pcl_als {
 namespace {
 
+using test::frameAt;
+using test::kNaN;
+using test::setOf;
 using Cloud = pcl::PointCloud<PointLidar>;
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
-LocalFrame frameAt(double x, double y) {
-  LocalFrame frame;
-  frame.origin = {x, y, 0.0};
-  return frame;
-}
-
-std::set<int> setOf(const pcl::Indices& indices) {
-  return {indices.begin(), indices.end()};
-}
 
 /// 1000 m above the origin of the frame at t = 10 s, north at 50 m/s, t = 0 to 20.
-std::shared_ptr<const Trajectory> flight() {
+std::shared_ptr<const Trajectory> flightOverPatches() {
   std::vector<TrajectorySample> samples(2);
   samples[0].position = {432000.0, 5449500.0, 1000.0};
   samples[1].position = {432000.0, 5450500.0, 1000.0};
@@ -56,7 +48,7 @@ IncidenceSelection<PointT> incidenceOf(const typename pcl::PointCloud<PointT>::C
   IncidenceSelection<PointT> incidence(removed);
   incidence.setInputCloud(cloud);
   incidence.setLocalFrame(frameAt(432000.0, 5450000.0));
-  incidence.setTrajectory(flight());
+  incidence.setTrajectory(flightOverPatches());
   incidence.setAngleLimits(10.0, 20.0);
   return incidence;
 }
@@ -129,7 +121,7 @@ TEST(IncidenceSelection, RefusesWhatIsMissingOrImpossible) {
   pcl::Indices indices{1};
   incidence.setInputCloud(Cloud::Ptr(new Cloud));
   EXPECT_THROW(incidence.filter(indices), UsageError);
-  incidence.setTrajectory(flight());
+  incidence.setTrajectory(flightOverPatches());
   incidence.filter(indices);
   EXPECT_TRUE(indices.empty());
 }

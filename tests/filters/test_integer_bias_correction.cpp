@@ -15,12 +15,11 @@ namespace {
 
 using test::effectAt;
 using test::flownNorth;
+using test::kOrigin;
 using test::swath;
 using test::SwathPoint;
 using test::typicalBiases;
 using Records = std::vector<std::byte>;
-
-const Eigen::Vector3d kOrigin(583390.0, 5283100.0, 500.0);
 
 /// Records of LAS point format 6 with 3 extra bytes: X Y Z at 0, time at 22.
 const IntegerBiasCorrection::Layout kLayout{
@@ -51,7 +50,7 @@ std::int32_t rawAt(const Records& records, std::size_t point, int axis) {
   return raw;
 }
 
-SwathPoint pointAt(const Records& records, std::size_t point) {
+SwathPoint recordedPoint(const Records& records, std::size_t point) {
   SwathPoint result{};
   for (int axis = 0; axis < 3; ++axis) {
     result.ground[axis] =
@@ -79,7 +78,7 @@ TEST(IntegerBiasCorrection, MovesEachIntegerByTheRoundedEffect) {
   const auto reference = flownNorth(kOrigin, 20.0);
   int moved = 0;
   for (std::size_t i = 0; i < 1000; ++i) {
-    const Eigen::Vector3d effect = effectAt(*reference, pointAt(before, i), typicalBiases());
+    const Eigen::Vector3d effect = effectAt(*reference, recordedPoint(before, i), typicalBiases());
     for (int axis = 0; axis < 3; ++axis) {
       const int change = rawAt(after, i, axis) - rawAt(before, i, axis);
       // Half a unit, and 1e-7 of one for the way the effect is computed.
@@ -149,9 +148,9 @@ TEST(IntegerBiasCorrection, HundredKilometresAreRightToAMillimetre) {
   IntegerBiasCorrection("strip.las", SystemCorrection(typicalBiases(), trajectory), kLayout)
       .apply(records.data(), points.size(), 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SwathPoint biased = pointAt(before, i);
+    const SwathPoint biased = recordedPoint(before, i);
     const Eigen::Vector3d expected = biased.ground - effectAt(*trajectory, biased, typicalBiases());
-    const Eigen::Vector3d off = (pointAt(records, i).ground - expected).cwiseAbs();
+    const Eigen::Vector3d off = (recordedPoint(records, i).ground - expected).cwiseAbs();
     // Half a unit of the scale: 1 mm in plan, 1 cm in height here.
     ASSERT_LT(off.head<2>().maxCoeff(), 0.000501) << i;
     ASSERT_LT(off.z(), 0.005001) << i;
@@ -175,7 +174,7 @@ TEST(IntegerBiasCorrection, TimesAreAlignedAndKept) {
   Records expected = before, after = before;
   correction(typicalBiases()).apply(expected.data(), 600, 0);
   for (std::size_t i = 0; i < 600; ++i) {
-    const double shifted = pointAt(before, i).time + 604800.0;
+    const double shifted = recordedPoint(before, i).time + 604800.0;
     std::memcpy(&after[i * kLayout.record_length + 22], &shifted, sizeof shifted);
   }
   TimeAlignment alignment;
@@ -184,7 +183,7 @@ TEST(IntegerBiasCorrection, TimesAreAlignedAndKept) {
   aligned.setTimeAlignment(alignment);
   IntegerBiasCorrection("strip.las", aligned, kLayout).apply(after.data(), 600, 0);
   for (std::size_t i = 0; i < 600; ++i) {
-    EXPECT_GE(pointAt(after, i).time, 604800.0);
+    EXPECT_GE(recordedPoint(after, i).time, 604800.0);
     // Times of 6e5 s are rounded to 1e-10 s: 6e-9 m.
     for (int axis = 0; axis < 3; ++axis) {
       EXPECT_NEAR(rawAt(after, i, axis), rawAt(expected, i, axis), 1) << i;

@@ -13,7 +13,7 @@
 #include "simulated_strips.h"
 
 /// A point of a user's own, with what the filter needs.
-struct UserPoint {
+struct IntensityPoint {
   PCL_ADD_POINT4D;
   float intensity = 0.0F;
   double gps_time = 0.0;
@@ -21,10 +21,10 @@ struct UserPoint {
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
 POINT_CLOUD_REGISTER_POINT_STRUCT(
-    UserPoint, (float, x, x)(float, y, y)(float, z, z)(float, intensity, intensity)(
-                   double, gps_time, gps_time)(std::uint8_t, return_number,
-                                               return_number)(std::uint8_t, number_of_returns,
-                                                              number_of_returns))
+    IntensityPoint, (float, x, x)(float, y, y)(float, z, z)(float, intensity, intensity)(
+                        double, gps_time, gps_time)(std::uint8_t, return_number,
+                                                    return_number)(std::uint8_t, number_of_returns,
+                                                                   number_of_returns))
 
 namespace pcl_als {
 namespace {
@@ -32,7 +32,7 @@ namespace {
 using Cloud = pcl::PointCloud<PointLidar>;
 
 /// 1000 m above the frame's origin, north at 50 m/s, t = 0 to 20.
-std::shared_ptr<const Trajectory> flight() {
+std::shared_ptr<const Trajectory> flightOverFrame() {
   std::vector<TrajectorySample> samples(2);
   samples[0].position = {700000.0, 5660000.0, 1000.0};
   samples[1].position = {700000.0, 5661000.0, 1000.0};
@@ -64,7 +64,7 @@ Cloud::Ptr ground() {
 
 IntensityCorrection<PointLidar> filterOf(const Cloud::Ptr& cloud) {
   IntensityCorrection<PointLidar> filter;
-  filter.setTrajectory(flight());
+  filter.setTrajectory(flightOverFrame());
   filter.setLocalFrame(frame());
   RadiometricModel model;
   model.reference_range = 500.0;
@@ -151,21 +151,21 @@ TEST(IntensityCorrection, EmptyAndLonePoints) {
 }
 
 TEST(IntensityCorrection, TakesAUsersPoint) {
-  pcl::PointCloud<UserPoint>::Ptr cloud(new pcl::PointCloud<UserPoint>);
+  pcl::PointCloud<IntensityPoint>::Ptr cloud(new pcl::PointCloud<IntensityPoint>);
   const Cloud::ConstPtr level = ground();
   for (const PointLidar& p : *level) {
-    UserPoint point;
+    IntensityPoint point;
     point.x = p.x, point.y = p.y, point.z = p.z;
     point.intensity = 100.0F;
     point.gps_time = p.gps_time;
     cloud->push_back(point);
   }
-  IntensityCorrection<UserPoint> filter;
-  filter.setTrajectory(flight());
+  IntensityCorrection<IntensityPoint> filter;
+  filter.setTrajectory(flightOverFrame());
   filter.setLocalFrame(frame());
   filter.setGain(2.0);
   filter.setInputCloud(cloud);
-  pcl::PointCloud<UserPoint> corrected;
+  pcl::PointCloud<IntensityPoint> corrected;
   filter.filter(corrected);
   EXPECT_NEAR(corrected[0].intensity, 50.0F, 1e-3F);
 }

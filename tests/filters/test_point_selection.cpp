@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
-#include <limits>
 #include <random>
 #include <set>
 
@@ -11,23 +10,16 @@
 #include <pcl_als/filters/impl/overlap_selection.hpp>
 #include <pcl_als/filters/impl/surface_selection.hpp>
 
+#include "filter_checks.h"
 #include "own_point.h"
 
 namespace pcl_als {
 namespace {
 
+using test::frameAt;
+using test::kNaN;
+using test::setOf;
 using Cloud = pcl::PointCloud<PointLidar>;
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
-LocalFrame frameAt(double x, double y) {
-  LocalFrame frame;
-  frame.origin = {x, y, 0.0};
-  return frame;
-}
-
-std::set<int> setOf(const pcl::Indices& indices) {
-  return {indices.begin(), indices.end()};
-}
 
 /// Uniformly over a rectangle, relative to its corner.
 Cloud::Ptr scattered(std::size_t count, float width, float height, unsigned seed) {

@@ -9,16 +9,17 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/filters/impl/system_bias_correction.hpp>
 
+#include "filter_checks.h"
 #include "swath.h"
 
 /// A user's own point type: nothing but what the filter needs and one field more.
-struct EIGEN_ALIGN16 UserPoint {
+struct EIGEN_ALIGN16 LabelledPoint {
   PCL_ADD_POINT4D;
   double gps_time;
   std::uint16_t label;
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
-POINT_CLOUD_REGISTER_POINT_STRUCT(UserPoint,
+POINT_CLOUD_REGISTER_POINT_STRUCT(LabelledPoint,
                                   (float, x, x)(float, y, y)(float, z, z)(double, gps_time,
                                                                           gps_time)(std::uint16_t,
                                                                                     label, label))
@@ -28,12 +29,12 @@ namespace {
 
 using test::effectAt;
 using test::flownNorth;
+using test::kOrigin;
+using test::refusalOf;
 using test::swath;
 using test::SwathPoint;
 using test::typicalBiases;
 using Cloud = pcl::PointCloud<PointLidar>;
-
-const Eigen::Vector3d kOrigin(583390.0, 5283100.0, 500.0);
 
 PointLidar lidarPoint(const LocalFrame& frame, const SwathPoint& point, int i) {
   PointLidar lidar;
@@ -54,13 +55,13 @@ Cloud::Ptr cloudOf(const LocalFrame& frame, const std::vector<SwathPoint>& point
 }
 
 /// A filter over a swath of 20 s around kOrigin.
-struct Fixture {
+struct SwathFilter {
   LocalFrame frame = LocalFrame::around(kOrigin);
   std::shared_ptr<const Trajectory> trajectory = flownNorth(kOrigin, 20.0);
   Cloud::Ptr cloud = cloudOf(frame, swath(kOrigin, 20.0, 5000));
   SystemBiasCorrection<PointLidar> filter;
 
-  Fixture() {
+  SwathFilter() {
     filter.setTrajectory(trajectory);
     filter.setLocalFrame(frame);
     filter.setBiases(typicalBiases());
@@ -100,7 +101,7 @@ TEST(SystemBiasCorrection, RollByHand) {
 }
 
 TEST(SystemBiasCorrection, SubtractsTheEffectAndKeepsEveryOtherField) {
-  Fixture f;
+  SwathFilter f;
   const Cloud before = *f.cloud;
   Cloud corrected;
   f.filter.filter(corrected);
@@ -121,7 +122,7 @@ TEST(SystemBiasCorrection, SubtractsTheEffectAndKeepsEveryOtherField) {
 }
 
 TEST(SystemBiasCorrection, InvertUndoesIt) {
-  Fixture f;
+  SwathFilter f;
   Cloud::Ptr corrected(new Cloud);
   f.filter.filter(*corrected);
   f.filter.setInputCloud(corrected);
@@ -135,7 +136,7 @@ TEST(SystemBiasCorrection, InvertUndoesIt) {
 }
 
 TEST(SystemBiasCorrection, ZeroBiasesChangeNoBit) {
-  Fixture f;
+  SwathFilter f;
   f.filter.setBiases(SystemVector::Zero());
   Cloud corrected;
   f.filter.filter(corrected);
@@ -154,7 +155,7 @@ TEST(SystemBiasCorrection, TakesTheBiasesOfACalibration) {
 /// Two systems of one swath, by turns: each point is moved as by the calibration of its system
 /// alone, and by the offset of its coordinates.
 TEST(SystemBiasCorrection, CorrectsEachPointByItsSystem) {
-  Fixture fixture;
+  SwathFilter fixture;
   CalibrationResult calibration;
   calibration[SystemParameter::boresight_roll].bias = 1e-3;
   calibration.systems.resize(2);
@@ -202,7 +203,7 @@ TEST(SystemBiasCorrection, ACalibrationWithAnAdverseVerdictIsRefused) {
 }
 
 TEST(SystemBiasCorrection, RefusesPointsWithoutTrajectoryUnlessTheyMayStay) {
-  Fixture f;
+  SwathFilter f;
   (*f.cloud)[3].gps_time = 99.0;
   (*f.cloud)[4].gps_time = std::nan("");
   Cloud corrected;
@@ -222,7 +223,7 @@ TEST(SystemBiasCorrection, RefusesPointsWithoutTrajectoryUnlessTheyMayStay) {
 }
 
 TEST(SystemBiasCorrection, PassesPointsThatAreNotFiniteOn) {
-  Fixture f;
+  SwathFilter f;
   PointLidar& hole = (*f.cloud)[10];
   hole.x = hole.y = hole.z = std::numeric_limits<float>::quiet_NaN();
   hole.gps_time = 1e6;  // would be refused
@@ -235,7 +236,7 @@ TEST(SystemBiasCorrection, PassesPointsThatAreNotFiniteOn) {
 }
 
 TEST(SystemBiasCorrection, EmptyAndOnePointClouds) {
-  Fixture f;
+  SwathFilter f;
   Cloud::Ptr few(new Cloud);
   f.filter.setInputCloud(few);
   Cloud corrected;
@@ -249,7 +250,7 @@ TEST(SystemBiasCorrection, EmptyAndOnePointClouds) {
 }
 
 TEST(SystemBiasCorrection, CorrectsOnlyTheIndices) {
-  Fixture f;
+  SwathFilter f;
   pcl::IndicesPtr indices(new pcl::Indices{1, 3});
   f.filter.setIndices(indices);
   Cloud corrected;
@@ -260,7 +261,7 @@ TEST(SystemBiasCorrection, CorrectsOnlyTheIndices) {
 }
 
 TEST(SystemBiasCorrection, MayReplaceItsInput) {
-  Fixture f;
+  SwathFilter f;
   Cloud apart;
   f.filter.filter(apart);
   f.filter.filter(*f.cloud);
@@ -271,7 +272,7 @@ TEST(SystemBiasCorrection, MayReplaceItsInput) {
 }
 
 TEST(SystemBiasCorrection, ThreadsChangeNoBit) {
-  Fixture f;
+  SwathFilter f;
   f.cloud = cloudOf(f.frame, swath(kOrigin, 20.0, 70000));
   f.filter.setInputCloud(f.cloud);
   Cloud one, eight;
@@ -284,7 +285,7 @@ TEST(SystemBiasCorrection, ThreadsChangeNoBit) {
 }
 
 TEST(SystemBiasCorrection, TimeOffsetIsAddedToPointTimes) {
-  Fixture f;
+  SwathFilter f;
   Cloud expected, shifted;
   f.filter.filter(expected);
   for (PointLidar& point : *f.cloud) point.gps_time += 1024.0;
@@ -298,45 +299,35 @@ TEST(SystemBiasCorrection, TimeOffsetIsAddedToPointTimes) {
   }
 }
 
-std::string messageOf(SystemBiasCorrection<PointLidar>& filter) {
-  Cloud corrected;
-  try {
-    filter.filter(corrected);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return {};
-}
-
 TEST(SystemBiasCorrection, AFrameThatWasNotSetIsNamed) {
-  Fixture f;
+  SwathFilter f;
   f.filter.setLocalFrame(LocalFrame());
-  const std::string text = messageOf(f.filter);
+  const std::string text = refusalOf(f.filter);
   EXPECT_NE(text.find("setLocalFrame"), std::string::npos) << text;
   EXPECT_NE(text.find(" m beside the trajectory"), std::string::npos) << text;
   f.filter.setCheckTrajectory(false);
-  EXPECT_EQ(messageOf(f.filter), "");
+  EXPECT_EQ(refusalOf(f.filter), "");
   // A frame of elsewhere on the same map, 20 km away.
   f.filter.setCheckTrajectory(true);
   f.filter.setLocalFrame(LocalFrame::around(kOrigin + Eigen::Vector3d(0.0, 20e3, 0.0)));
-  EXPECT_NE(messageOf(f.filter).find("setLocalFrame"), std::string::npos);
+  EXPECT_NE(refusalOf(f.filter).find("setLocalFrame"), std::string::npos);
 }
 
 TEST(SystemBiasCorrection, AUsersOwnPointTypeWorks) {
-  Fixture f;
-  pcl::PointCloud<UserPoint>::Ptr cloud(new pcl::PointCloud<UserPoint>);
+  SwathFilter f;
+  pcl::PointCloud<LabelledPoint>::Ptr cloud(new pcl::PointCloud<LabelledPoint>);
   for (const PointLidar& from : *f.cloud) {
-    UserPoint point;
+    LabelledPoint point;
     point.x = from.x, point.y = from.y, point.z = from.z;
     point.gps_time = from.gps_time, point.label = 5;
     cloud->push_back(point);
   }
-  SystemBiasCorrection<UserPoint> filter;
+  SystemBiasCorrection<LabelledPoint> filter;
   filter.setTrajectory(f.trajectory);
   filter.setLocalFrame(f.frame);
   filter.setBiases(typicalBiases());
   filter.setInputCloud(cloud);
-  pcl::PointCloud<UserPoint> corrected;
+  pcl::PointCloud<LabelledPoint> corrected;
   filter.filter(corrected);
   Cloud expected;
   f.filter.filter(expected);

@@ -14,7 +14,7 @@ constexpr double kWidth = 2.0;     // of the response, samples of 1 ns
 constexpr float kSpeed = 1.5e-4F;  // metres per picosecond
 
 /// A pulse that points downwards from z = 100 m at the first sample.
-PointLidar pointAt(float time_ps, unsigned number, unsigned of) {
+PointLidar pulsePoint(float time_ps, unsigned number, unsigned of) {
   PointLidar point(3.0F, 4.0F, 100.0F - kSpeed * time_ps);
   point.gps_time = 7.0;
   point.intensity = 800.0F;
@@ -40,9 +40,9 @@ std::vector<double> countsOf(const std::vector<std::pair<double, double>>& echoe
 class WaveformCloud : public testing::Test {
  protected:
   WaveformCloud() : cloud(new pcl::PointCloud<PointLidar>) {
-    cloud->push_back(pointAt(41000.0F, 1, 1));  // late by 1 ns
-    cloud->push_back(pointAt(30000.0F, 1, 1));
-    cloud->push_back(pointAt(25000.0F, 1, 1));
+    cloud->push_back(pulsePoint(41000.0F, 1, 1));  // late by 1 ns
+    cloud->push_back(pulsePoint(30000.0F, 1, 1));
+    cloud->push_back(pulsePoint(25000.0F, 1, 1));
     waveforms = std::make_shared<MemoryWaveforms>(cloud->size());
     WaveformDescriptor descriptor;
     descriptor.bits = 16;
@@ -122,7 +122,7 @@ TEST_F(WaveformCloud, AddsNoEchoOfAPulseTwice) {
 }
 
 TEST_F(WaveformCloud, RefusesWaveformsOfOtherPoints) {
-  cloud->push_back(pointAt(25000.0F, 1, 1));
+  cloud->push_back(pulsePoint(25000.0F, 1, 1));
   EXPECT_THROW(filter.filter(out), UsageError);
   filter.setWaveforms(nullptr);
   EXPECT_THROW(filter.filter(out), UsageError);

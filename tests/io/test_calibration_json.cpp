@@ -55,20 +55,16 @@ std::string exampleText() {
 }
 
 /// The message of reading the example with \a from replaced by \a to.
-std::string refusal(const std::string& from, const std::string& to) {
+std::string refusalOfChange(const std::string& from, const std::string& to) {
   std::string text = exampleText();
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
   const auto path = test::scratch("calibration_json") / "changed.json";
   std::ofstream(path, std::ios::binary) << text;
-  try {
-    readCalibration(path);
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("changed.json: "), std::string::npos) << error.what();
-    return error.what();
-  }
-  return {};
+  const std::string message = test::messageOf<InputError>([&] { readCalibration(path); });
+  EXPECT_NE(message.find("changed.json: "), std::string::npos) << message;
+  return message;
 }
 
 TEST(CalibrationJson, KeepsTheModelAndItsAttitude) {
@@ -83,8 +79,9 @@ TEST(CalibrationJson, KeepsTheModelAndItsAttitude) {
         attitude == AttitudeSource::trajectory ? "rigorous" : "quasi_rigorous";
     EXPECT_NE(textOf(path).find("\"model\": \"" + model + '"'), std::string::npos);
   }
-  EXPECT_NE(refusal("\"quasi_rigorous\"", "\"vague\"").find("'vague'"), std::string::npos);
-  EXPECT_NE(refusal("\"quasi_rigorous\"", "\"rigorous\"").find("attitude"), std::string::npos);
+  EXPECT_NE(refusalOfChange("\"quasi_rigorous\"", "\"vague\"").find("'vague'"), std::string::npos);
+  EXPECT_NE(refusalOfChange("\"quasi_rigorous\"", "\"rigorous\"").find("attitude"),
+            std::string::npos);
 }
 
 TEST(CalibrationJson, ReadsBackWhatItWrote) {
@@ -264,7 +261,7 @@ TEST(CalibrationJson, KeepsTheVerdictAndTheMisfit) {
   EXPECT_EQ(read.misfit.rms_after, 0.033);
   EXPECT_EQ(read.misfit.limit, 0.2);
   EXPECT_EQ(read.misfit.change_std, 0.0005);
-  EXPECT_NE(refusal("\"status\": \"usable\"", "\"status\": \"splendid\"").find("splendid"),
+  EXPECT_NE(refusalOfChange("\"status\": \"usable\"", "\"status\": \"splendid\"").find("splendid"),
             std::string::npos);
 }
 
@@ -381,7 +378,7 @@ TEST(CalibrationJson, ErrorsNameTheKey) {
       {"{", "", "is not valid JSON"},
   };
   for (const auto& row : cases) {
-    const std::string message = refusal(row.from, row.to);
+    const std::string message = refusalOfChange(row.from, row.to);
     EXPECT_NE(message.find(row.expected), std::string::npos) << row.expected << " / " << message;
   }
 }

@@ -179,15 +179,10 @@ TEST(Copc, ARewrittenFileHasNoOctreeButAllOtherRecords) {
 }
 
 /// The message about a window of a file with changed bytes.
-std::string refusal(const std::string& bytes) {
+std::string refusalOfWindow(const std::string& bytes) {
   const fs::path path = test::scratch("copc_damage") / "block.copc.laz";
   test::writeBytes(path, bytes);
-  try {
-    readPart(path, boxed(0.0, 0.0, 600.0, 600.0));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "read";
+  return test::messageOf<InputError>([&] { readPart(path, boxed(0.0, 0.0, 600.0, 600.0)); });
 }
 
 template <typename T>
@@ -201,7 +196,7 @@ TEST(CopcDamage, IsRefusedInOneLine) {
   const std::size_t info = CopcBytes::infoAt(), page = block().pageEntries().at(0),
                     node = block().entryOf({1, 0, 0, 0});
   const auto expect = [](const std::string& bytes, const std::string& text) {
-    const std::string message = refusal(bytes);
+    const std::string message = refusalOfWindow(bytes);
     EXPECT_NE(message.find(text), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos);
   };

@@ -43,8 +43,9 @@ PointChunk field(double x, double y, double width, double height, std::uint16_t 
   return p;
 }
 
-std::filesystem::path write(const std::filesystem::path& path, const std::vector<PointChunk>& parts,
-                            TimeKind kind = TimeKind::week_seconds) {
+std::filesystem::path writeLas(const std::filesystem::path& path,
+                               const std::vector<PointChunk>& parts,
+                               TimeKind kind = TimeKind::week_seconds) {
   LasWriterOptions options;
   options.time_kind = kind;
   options.crs = "LOCAL_CS[\"metres\"]";
@@ -64,8 +65,8 @@ bool has(const Warnings& remarks, const std::string& part, Hint hint = Hint::non
 TEST(DatasetInventory, CountsStripsDensityAndOverlap) {
   const auto folder = test::scratch("census_overlap");
   // 100 m x 50 m and, over its eastern 40 m, 60 m x 50 m; cells of 5 m fit both exactly.
-  const auto a = write(folder / "a.las", {field(0, 0, 100, 50, 1)});
-  const auto b = write(folder / "b.las", {field(60, 0, 60, 50, 2, 5000.0)});
+  const auto a = writeLas(folder / "a.las", {field(0, 0, 100, 50, 1)});
+  const auto b = writeLas(folder / "b.las", {field(60, 0, 60, 50, 2, 5000.0)});
   const DatasetInventory survey = takeInventory({a, b}, 5.0);
   ASSERT_EQ(survey.strips.size(), 2U);
   EXPECT_EQ(survey.strips[0].id, "1");
@@ -89,15 +90,15 @@ TEST(DatasetInventory, DensityIsThatOfTheInnerCells) {
   PointChunk pile = field(20, 20, 1, 1, 1, 2000.0);
   std::vector<PointChunk> parts(1, field(1.3, 2.1, 100, 50, 1));
   for (int i = 0; i < 50; ++i) parts.push_back(pile);
-  const DatasetInventory survey = takeInventory({write(folder / "a.las", parts)}, 5.0);
+  const DatasetInventory survey = takeInventory({writeLas(folder / "a.las", parts)}, 5.0);
   EXPECT_EQ(survey.strips[0].density, 4.0);
 }
 
 TEST(DatasetInventory, FindsGapsInTime) {
   const auto folder = test::scratch("census_gaps");
-  const auto path = write(folder / "a.las", {field(0, 0, 10, 10, 1, 1000.0),   // to 1003.99
-                                             field(10, 0, 10, 10, 1, 1004.9),  // 0.91 s later
-                                             field(20, 0, 10, 10, 1, 1010.0)});
+  const auto path = writeLas(folder / "a.las", {field(0, 0, 10, 10, 1, 1000.0),   // to 1003.99
+                                                field(10, 0, 10, 10, 1, 1004.9),  // 0.91 s later
+                                                field(20, 0, 10, 10, 1, 1010.0)});
   const StripInventory strip = takeInventory({path}).strips[0];
   ASSERT_EQ(strip.gaps.size(), 1U);
   EXPECT_NEAR(strip.gaps[0].from, 1008.89, 1e-9);
@@ -108,16 +109,16 @@ TEST(DatasetInventory, FindsGapsInTime) {
 TEST(DatasetInventory, AGapInWhichAnAircraftMayTurnSeparatesLines) {
   const auto folder = test::scratch("census_lines");
   const auto path =
-      write(folder / "a.las", {field(0, 0, 20, 20, 1, 1000.0), field(0, 30, 20, 20, 1, 1100.0)});
+      writeLas(folder / "a.las", {field(0, 0, 20, 20, 1, 1000.0), field(0, 30, 20, 20, 1, 1100.0)});
   EXPECT_TRUE(has(takeInventory({path}).strips[0].remarks, "the longest of 84 s", Hint::split));
 }
 
 TEST(DatasetInventory, StripsOfTheSameTimesAreNamed) {
   const auto folder = test::scratch("census_simultaneous");
   // Ids 1 and 2 share 24 of 32 seconds; 3 follows within a second of 2's end, 4 is flown later.
-  const auto path =
-      write(folder / "a.las", {field(0, 0, 40, 20, 1, 1000.0), field(0, 30, 40, 20, 2, 1008.0),
-                               field(0, 60, 40, 20, 3, 1040.0), field(0, 90, 40, 20, 4, 2000.0)});
+  const auto path = writeLas(folder / "a.las",
+                             {field(0, 0, 40, 20, 1, 1000.0), field(0, 30, 40, 20, 2, 1008.0),
+                              field(0, 60, 40, 20, 3, 1040.0), field(0, 90, 40, 20, 4, 2000.0)});
   const DatasetInventory survey = takeInventory({path});
   ASSERT_EQ(survey.strips.size(), 4U);
   EXPECT_EQ(survey.strips[0].recorded_with, std::optional<std::size_t>(1));
@@ -132,7 +133,7 @@ TEST(DatasetInventory, NumbersOfPulsesAreNoFlightLines) {
   PointChunk points = field(0, 0, 60, 60, 1);
   for (std::size_t i = 0; i < points.size(); ++i)
     points.point_source_id[i] = static_cast<std::uint16_t>(1 + i % 1500);
-  const DatasetInventory survey = takeInventory({write(folder / "a.las", {points})});
+  const DatasetInventory survey = takeInventory({writeLas(folder / "a.las", {points})});
   EXPECT_TRUE(has(survey.remarks, "there are 1 500 point source ids", Hint::split));
   EXPECT_FALSE(has(survey.remarks, "recorded at the times", Hint::split));
   // A million pairs of them, or a thousand million of what number pulses, tell nothing.
@@ -145,18 +146,18 @@ TEST(DatasetInventory, ChannelsOfTheScannerAreNamed) {
   PointChunk points = field(0, 0, 20, 20, 1);
   for (std::size_t i = 0; i < points.size(); ++i)
     points.flags[i] = static_cast<std::uint8_t>((i % 2) << 6U);
-  const DatasetInventory survey = takeInventory({write(folder / "a.las", {points})});
+  const DatasetInventory survey = takeInventory({writeLas(folder / "a.las", {points})});
   EXPECT_EQ(survey.files[0].statistics.channels, (std::array<std::uint64_t, 4>{800, 800, 0, 0}));
   EXPECT_TRUE(
       has(survey.remarks, "1 strip has points of several scanner channels", Hint::channels));
-  EXPECT_FALSE(has(takeInventory({write(folder / "b.las", {field(0, 0, 20, 20, 1)})}).remarks,
+  EXPECT_FALSE(has(takeInventory({writeLas(folder / "b.las", {field(0, 0, 20, 20, 1)})}).remarks,
                    "scanner channels", Hint::channels));
 }
 
 TEST(DatasetInventory, JoinsTilesOfAStrip) {
   const auto folder = test::scratch("census_tiles");
-  const auto a = write(folder / "a.las", {field(0, 0, 20, 20, 7, 1000.0)});
-  const auto b = write(folder / "b.las", {field(20, 0, 20, 20, 7, 1016.0)});
+  const auto a = writeLas(folder / "a.las", {field(0, 0, 20, 20, 7, 1000.0)});
+  const auto b = writeLas(folder / "b.las", {field(20, 0, 20, 20, 7, 1016.0)});
   const DatasetInventory survey = takeInventory({a, b}, 5.0);
   ASSERT_EQ(survey.strips.size(), 1U);
   EXPECT_EQ(survey.strips[0].statistics.points, 3200U);
@@ -168,8 +169,9 @@ TEST(DatasetInventory, JoinsTilesOfAStrip) {
 
 TEST(DatasetInventory, CountsDuplicates) {
   const auto folder = test::scratch("census_duplicates");
-  const auto a = write(folder / "a.las", {field(0, 0, 20, 20, 1)});
-  const auto b = write(folder / "b.las", {field(0, 0, 20, 5, 1), field(0, 30, 20, 5, 1, 3000.0)});
+  const auto a = writeLas(folder / "a.las", {field(0, 0, 20, 20, 1)});
+  const auto b =
+      writeLas(folder / "b.las", {field(0, 0, 20, 5, 1), field(0, 30, 20, 5, 1, 3000.0)});
   const DatasetInventory survey = takeInventory({a, b});
   EXPECT_EQ(survey.duplicates, 400U);
   EXPECT_FALSE(survey.duplicates_estimated);
@@ -178,7 +180,7 @@ TEST(DatasetInventory, CountsDuplicates) {
 
 TEST(DatasetInventory, EstimatesDuplicatesOfManyPoints) {
   const auto folder = test::scratch("census_many");
-  const auto a = write(folder / "a.las", {field(0, 0, 800, 500, 1)});  // 1.6 million
+  const auto a = writeLas(folder / "a.las", {field(0, 0, 800, 500, 1)});  // 1.6 million
   const DatasetInventory survey = takeInventory({a, a});
   EXPECT_TRUE(survey.duplicates_estimated);
   // A sample of at least 262144 points: 1 % is five standard deviations of its size.
@@ -193,7 +195,7 @@ TEST(DatasetInventory, CellsGrowWherePointsAreSpreadTooWidely) {
     p.x[i] = 1000.0 * static_cast<double>(column);
     p.y[i] = 1000.0 * static_cast<double>(row);
   }
-  const DatasetInventory survey = takeInventory({write(folder / "a.las", {p})}, 1.0);
+  const DatasetInventory survey = takeInventory({writeLas(folder / "a.las", {p})}, 1.0);
   EXPECT_GT(survey.cell, 1.0);
   EXPECT_EQ(survey.strips[0].statistics.points, 200000U);
 }
@@ -203,7 +205,7 @@ TEST(DatasetInventory, SaysWhatIsSuspiciousAboutTimes) {
   const auto remarksFor = [&](const std::function<void(PointChunk&)>& spoil, TimeKind kind) {
     PointChunk p = field(0, 0, 20, 20, 1);
     spoil(p);
-    return takeInventory({write(folder / "a.las", {p}, kind)}).files[0].remarks;
+    return takeInventory({writeLas(folder / "a.las", {p}, kind)}).files[0].remarks;
   };
   const auto week = TimeKind::week_seconds, standard = TimeKind::adjusted_standard;
   const auto keep = [](PointChunk&) {};
@@ -232,7 +234,7 @@ TEST(DatasetInventory, RecognisesUnixTimes) {
   for (const double units : {1.0, 1e3, 1e9}) {
     PointChunk p = field(0, 0, 20, 20, 1, 1756080000.0);
     for (double& time : p.gps_time) time *= units;
-    const DatasetInventory survey = takeInventory({write(folder / "a.las", {p})});
+    const DatasetInventory survey = takeInventory({writeLas(folder / "a.las", {p})});
     EXPECT_TRUE(has(survey.files[0].remarks, "look like Unix time")) << units;
     EXPECT_TRUE(has(survey.files[0].remarks, "2025-08-25")) << units;
     EXPECT_EQ(has(survey.files[0].remarks, "nanoseconds"), units == 1e9);
@@ -247,7 +249,7 @@ TEST(DatasetInventory, LinesGoOnThroughTheEndOfTheWeek) {
   const auto folder = test::scratch("census_rollover");
   PointChunk p = field(0, 0, 20, 20, 1, 604792.0);
   for (double& time : p.gps_time) time = std::fmod(time, 604800.0);
-  const DatasetInventory survey = takeInventory({write(folder / "a.las", {p})});
+  const DatasetInventory survey = takeInventory({writeLas(folder / "a.las", {p})});
   const PointStatistics& s = survey.strips[0].statistics;
   EXPECT_NEAR(s.first_time, 604792.0, 1e-6);
   EXPECT_NEAR(s.last_time, 604807.99, 1e-6);
@@ -264,7 +266,7 @@ TEST(DatasetInventory, SaysWhatIsSuspiciousAboutPoints) {
   p.flags[6] = kWithheld;
   std::fill(p.intensity.begin(), p.intensity.end(), 0.0F);
   std::swap(p.gps_time[7], p.gps_time[8]);
-  const DatasetInventory survey = takeInventory({write(folder / "a.las", {p})});
+  const DatasetInventory survey = takeInventory({writeLas(folder / "a.las", {p})});
   EXPECT_TRUE(has(survey.files[0].remarks, "1 point (0.25 %) has return number zero"));
   EXPECT_TRUE(has(survey.files[0].remarks, "flagged as withheld"));
   EXPECT_TRUE(has(survey.files[0].remarks, "every intensity is zero"));
@@ -276,11 +278,11 @@ TEST(DatasetInventory, RemarksTimesInWholeSeconds) {
   const auto folder = test::scratch("census_whole_seconds");
   PointChunk rounded = field(0, 0, 50, 20, 1);
   for (double& time : rounded.gps_time) time = std::floor(time);
-  const DatasetInventory survey = takeInventory({write(folder / "rounded.las", {rounded})});
+  const DatasetInventory survey = takeInventory({writeLas(folder / "rounded.las", {rounded})});
   // 4000 points at 100 a second are 40 s.
   EXPECT_TRUE(has(survey.strips[0].remarks, "in whole seconds (40 distinct values in 4000"));
   const DatasetInventory fine =
-      takeInventory({write(folder / "fine.las", {field(0, 0, 50, 20, 1)})});
+      takeInventory({writeLas(folder / "fine.las", {field(0, 0, 50, 20, 1)})});
   EXPECT_FALSE(has(fine.strips[0].remarks, "whole seconds"));
 }
 
@@ -288,10 +290,10 @@ TEST(DatasetInventory, RemarksLargeScanAngles) {
   const auto folder = test::scratch("census_scan_angles");
   PointChunk points = field(0, 0, 50, 20, 1);
   points.scan_angle[7] = 59.0F;
-  const DatasetInventory usual = takeInventory({write(folder / "usual.las", {points})});
+  const DatasetInventory usual = takeInventory({writeLas(folder / "usual.las", {points})});
   EXPECT_FALSE(has(usual.strips[0].remarks, "scan angles"));
   points.scan_angle[8] = -106.0F;
-  const DatasetInventory large = takeInventory({write(folder / "large.las", {points})});
+  const DatasetInventory large = takeInventory({writeLas(folder / "large.las", {points})});
   EXPECT_TRUE(has(large.strips[0].remarks, "scan angles of -106 to 59 degrees"));
 }
 

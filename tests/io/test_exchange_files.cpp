@@ -104,7 +104,7 @@ void expectSameAttributes(const PointChunk& one, const PointChunk& other) {
   EXPECT_EQ(one.channel, other.channel);
 }
 
-std::string refusal(const fs::path& path, const PointWindow& window = {}) {
+std::string refusalOfPoints(const fs::path& path, const PointWindow& window = {}) {
   try {
     const auto reader = PointReader::open(path, window);
     readPoints(*reader);
@@ -116,7 +116,7 @@ std::string refusal(const fs::path& path, const PointWindow& window = {}) {
 
 void expectRefused(const std::string& name, const std::string& content, const std::string& text) {
   const fs::path path = written(name, content);
-  const std::string message = refusal(path);
+  const std::string message = refusalOfPoints(path);
   EXPECT_EQ(message.rfind(path.string() + ": ", 0), 0U) << message;
   EXPECT_NE(message.find(text), std::string::npos) << message << "\nlacks " << text;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -331,10 +331,10 @@ TEST(Xyz, NamesOfColumnsAreGivenOrAssumed) {
   EXPECT_EQ(readPoints(*named).x, std::vector<double>{1.0});
   EXPECT_EQ(named->remarks(), std::vector<std::string>{"its column is not used: quality"});
   window.columns = {"x", "y"};
-  EXPECT_NE(refusal(written("lack.xyz", "1 2\n"), window).find("none of them is z"),
+  EXPECT_NE(refusalOfPoints(written("lack.xyz", "1 2\n"), window).find("none of them is z"),
             std::string::npos);
   window.columns = {"x", "y", "z", "easting"};
-  EXPECT_NE(refusal(written("two.xyz", "1 2 3 4\n"), window).find("two of them are x"),
+  EXPECT_NE(refusalOfPoints(written("two.xyz", "1 2 3 4\n"), window).find("two of them are x"),
             std::string::npos);
 }
 

@@ -13,7 +13,7 @@
 namespace pcl_als {
 namespace {
 
-std::filesystem::path file(const std::string& name, const std::string& text) {
+std::filesystem::path imageFile(const std::string& name, const std::string& text) {
   const auto path = test::scratch("image_block") / name;
   std::ofstream(path, std::ios::binary) << text;
   return path;
@@ -40,20 +40,20 @@ const std::string kCamera =
 std::string camera(const std::string& part, const std::string& with) {
   std::string text = kCamera;
   text.replace(text.find(part), part.size(), with);
-  return test::messageOf<InputError>([&] { readCamera(file("camera.json", text)); });
+  return test::messageOf<InputError>([&] { readCamera(imageFile("camera.json", text)); });
 }
 
 std::string images(const std::string& text) {
-  return test::messageOf<InputError>([&] { readImages(file("images.csv", text)); });
+  return test::messageOf<InputError>([&] { readImages(imageFile("images.csv", text)); });
 }
 
 std::string measurements(const std::string& text, const FrameCamera& camera = pixels()) {
   return test::messageOf<InputError>(
-      [&] { readMeasurements(file("measurements.csv", text), camera, 0.0); });
+      [&] { readMeasurements(imageFile("measurements.csv", text), camera, 0.0); });
 }
 
 std::string lines(const std::string& text) {
-  return test::messageOf<InputError>([&] { readLines(file("lines.csv", text)); });
+  return test::messageOf<InputError>([&] { readLines(imageFile("lines.csv", text)); });
 }
 
 void expectPart(const std::string& message, const std::string& part) {
@@ -140,11 +140,12 @@ TEST(ImageBlockIo, MeasurementsAreReadAsWritten) {
 
 TEST(ImageBlockIo, StandardDeviationsHaveADefaultInEachUnit) {
   const std::string text = "image,kind,feature,x,y\nI1,point,P1,10,20\n";
-  EXPECT_NEAR(readMeasurements(file("m.csv", text), pixels(), 0.0).front().sigma, 0.003, 1e-12);
+  EXPECT_NEAR(readMeasurements(imageFile("m.csv", text), pixels(), 0.0).front().sigma, 0.003,
+              1e-12);
   FrameCamera camera = pixels();
   camera.pixel_size = 0.0;
-  EXPECT_NEAR(readMeasurements(file("m.csv", text), camera, 0.0).front().sigma, 0.003, 1e-12);
-  EXPECT_NEAR(readMeasurements(file("m.csv", text), camera, 0.01).front().sigma, 0.01, 1e-12);
+  EXPECT_NEAR(readMeasurements(imageFile("m.csv", text), camera, 0.0).front().sigma, 0.003, 1e-12);
+  EXPECT_NEAR(readMeasurements(imageFile("m.csv", text), camera, 0.01).front().sigma, 0.01, 1e-12);
 }
 
 TEST(ImageBlockIo, MeasurementsThatCannotBeAreRefused) {

@@ -38,14 +38,14 @@ LasBytes withKeys(const std::vector<Key>& keys, const std::vector<double>& doubl
   return las;
 }
 
-std::filesystem::path put(const LasBytes& las) {
+std::filesystem::path writeStrip(const LasBytes& las) {
   const auto path = test::scratch("las_units") / "strip.las";
   test::writeBytes(path, las.str());
   return path;
 }
 
 PointFileInfo infoOf(const LasBytes& las) {
-  return LasFile(put(las)).info();
+  return LasFile(writeStrip(las)).info();
 }
 
 TEST(LasUnits, KeysStateHorizontalAndVerticalUnit) {
@@ -113,7 +113,7 @@ TEST(LasUnits, KeysStateHorizontalAndVerticalUnit) {
 
 TEST(LasUnits, PointsAndExtentAreDeliveredInMetres) {
   LasBytes las = withKeys({{1024, 0, 1}, {3076, 0, 9002}, {4099, 0, 9003}});
-  const auto path = put(las);
+  const auto path = writeStrip(las);
   const auto reader = PointReader::open(path);
   PointChunk chunk;
   ASSERT_TRUE(reader->read(chunk));
@@ -219,7 +219,7 @@ LasBytes inDegrees(const std::vector<Key>& keys) {
 }
 
 TEST(LasUnits, RefusesDegreesWithTheRemedy) {
-  const auto path = put(inDegrees({{1024, 0, 2}, {2048, 0, 4326}}));
+  const auto path = writeStrip(inDegrees({{1024, 0, 2}, {2048, 0, 4326}}));
   EXPECT_EQ(LasFile(path).crsKind(), CrsKind::geographic);
   const auto refusal = [&](const std::function<void()>& action) {
     return test::messageOf<InputError>(action);
@@ -239,7 +239,7 @@ TEST(LasUnits, RefusesDegreesWithTheRemedy) {
 TEST(LasUnits, RefusesGeocentricCoordinates) {
   LasBytes las = withKeys({{1024, 0, 3}, {2048, 0, 4326}});
   las.offset_x = 3924687.0, las.offset_y = 301132.0, las.offset_z = 5001910.0;  // Delft
-  const auto path = put(las);
+  const auto path = writeStrip(las);
   EXPECT_NE(test::messageOf<InputError>([&] { PointReader::open(path); }).find("geocentric"),
             std::string::npos);
 }

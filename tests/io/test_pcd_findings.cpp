@@ -182,8 +182,9 @@ TEST(PcdFindings, OurFilesAreKnownByAComment) {
 }
 
 /// The text of a PCD of two points with one field besides the coordinates.
-std::string twoPoints(const std::string& size, const std::string& field, const std::string& type,
-                      const std::string& first, const std::string& second) {
+std::string pcdOfTwoPoints(const std::string& size, const std::string& field,
+                           const std::string& type, const std::string& first,
+                           const std::string& second) {
   const std::string sizes = size + ' ' + size + ' ' + size + ' ';
   return "FIELDS x y z " + field + "\nSIZE " + sizes + type.substr(2) + "\nTYPE F F F " +
          type.substr(0, 1) +
@@ -193,9 +194,9 @@ std::string twoPoints(const std::string& size, const std::string& field, const s
 
 TEST(PcdFindings, DoublesHaveFineSteps) {
   const fs::path path = test::scratch("pcd_steps") / "a.pcd";
-  test::writeBytes(path, twoPoints("8", "intensity", "F 4", "7", "8"));
+  test::writeBytes(path, pcdOfTwoPoints("8", "intensity", "F 4", "7", "8"));
   EXPECT_EQ(PointReader::open(path)->info().resolution.x(), 1e-6);
-  test::writeBytes(path, twoPoints("4", "intensity", "F 4", "7", "8"));
+  test::writeBytes(path, pcdOfTwoPoints("4", "intensity", "F 4", "7", "8"));
   EXPECT_NEAR(PointReader::open(path)->info().resolution.x(), 0.64, 0.01);
 }
 
@@ -203,13 +204,13 @@ TEST(PcdFindings, DoublesHaveFineSteps) {
 TEST(PcdFindings, IntegersOfOtherTypesAreRead) {
   const fs::path path = test::scratch("pcd_types") / "a.pcd";
   PointChunk p;
-  test::writeBytes(path, twoPoints("8", "PointSourceID", "I 2", "-26000", "17"));
+  test::writeBytes(path, pcdOfTwoPoints("8", "PointSourceID", "I 2", "-26000", "17"));
   ASSERT_TRUE(PointReader::open(path)->read(p));
   EXPECT_EQ(p.point_source_id, (std::vector<std::uint16_t>{39536, 17}));
-  test::writeBytes(path, twoPoints("8", "PointSourceID", "I 4", "-26000", "17"));
+  test::writeBytes(path, pcdOfTwoPoints("8", "PointSourceID", "I 4", "-26000", "17"));
   EXPECT_THROW(PointReader::open(path), InputError);
-  test::writeBytes(path,
-                   twoPoints("8", "gps_time", "U 8", "1756080000000000000", "1756080001500000000"));
+  test::writeBytes(
+      path, pcdOfTwoPoints("8", "gps_time", "U 8", "1756080000000000000", "1756080001500000000"));
   const auto reader = PointReader::open(path);
   ASSERT_TRUE(reader->read(p));
   EXPECT_NEAR(p.gps_time[0], 1756080000.0, 1e-3);

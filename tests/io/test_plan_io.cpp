@@ -13,16 +13,16 @@
 namespace pcl_als {
 namespace {
 
-std::filesystem::path write(const std::string& name, const std::string& text) {
+std::filesystem::path writePlan(const std::string& name, const std::string& text) {
   const auto path = test::scratch("plan_" + name) / name;
   std::ofstream(path) << text;
   return path;
 }
 
 TEST(FlightLines, AreReadByColumnName) {
-  const auto path = write("plan.csv",
-                          "speed;height;id;y2;x2;y1;x1\n70;540;a;4;3;2;1\n"
-                          ";1150;b;8;7;6;5\n");
+  const auto path = writePlan("plan.csv",
+                              "speed;height;id;y2;x2;y1;x1\n70;540;a;4;3;2;1\n"
+                              ";1150;b;8;7;6;5\n");
   const auto lines = readFlightLines(path);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0].id, "a");
@@ -37,7 +37,7 @@ TEST(FlightLines, AreReadByColumnName) {
 TEST(ElevationGrid, HasNorthOnTopAndValuesAtCentres) {
   const char* header = "NCOLS 3\nNROWS 2\nXLLCORNER 100\nYLLCORNER 200\nCELLSIZE 10\n";
   const auto path =
-      write("grid.asc", std::string(header) + "NODATA_value -9999\n10 20 -9999\n0 10 20\n");
+      writePlan("grid.asc", std::string(header) + "NODATA_value -9999\n10 20 -9999\n0 10 20\n");
   const ElevationGrid grid = ElevationGrid::read(path);
   EXPECT_EQ(grid.columns(), 3U);
   EXPECT_EQ(grid.rows(), 2U);
@@ -55,7 +55,7 @@ TEST(ElevationGrid, HasNorthOnTopAndValuesAtCentres) {
 
 TEST(ElevationGrid, TakesCentresToo) {
   const auto path =
-      write("centre.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 4\n1 2\n3 4\n");
+      writePlan("centre.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 4\n1 2\n3 4\n");
   Eigen::Vector2d gradient;
   EXPECT_DOUBLE_EQ(*ElevationGrid::read(path).at({0.0, 0.0}, gradient), 3.0);
 }

@@ -23,7 +23,7 @@ PointFileInfo fileIn(const std::string& name, const std::string& crs) {
   return info;
 }
 
-std::string refusal(const std::vector<PointFileInfo>& files) {
+std::string refusalOfReferences(const std::vector<PointFileInfo>& files) {
   return test::messageOf<InputError>([&] { commonReference(files); });
 }
 
@@ -73,13 +73,13 @@ TEST(PointReference, OneZoneInFeetAndInMetresBelongsTogether) {
 }
 
 TEST(PointReference, RefusesWhatDoesNotBelongTogether) {
-  EXPECT_EQ(refusal({fileIn("a.las", "EPSG:25832"), fileIn("b.las", "EPSG:25833")}),
+  EXPECT_EQ(refusalOfReferences({fileIn("a.las", "EPSG:25832"), fileIn("b.las", "EPSG:25833")}),
             "block/b.las: is in EPSG:25833 but block/a.las in EPSG:25832; reproject one of them");
-  EXPECT_NE(refusal({fileIn("a.las", "EPSG:4326")}).find("degrees"), std::string::npos);
-  EXPECT_EQ(refusal({fileIn("a.las", "EPSG:2227"), fileIn("b.las", "")}),
+  EXPECT_NE(refusalOfReferences({fileIn("a.las", "EPSG:4326")}).find("degrees"), std::string::npos);
+  EXPECT_EQ(refusalOfReferences({fileIn("a.las", "EPSG:2227"), fileIn("b.las", "")}),
             "block/b.las: states no unit of length, but block/a.las is in US survey foot; give "
             "both files their CRS");
-  EXPECT_EQ(refusal({fileIn("a.las", "EPSG:25832"), fileIn("b.las", "")}), "no error");
+  EXPECT_EQ(refusalOfReferences({fileIn("a.las", "EPSG:25832"), fileIn("b.las", "")}), "no error");
 }
 
 /// Without a code the coordinates tell: EPSG:25832 as WKT without one, and its neighbour.
@@ -91,16 +91,17 @@ TEST(PointReference, ComparesDescriptionsWithoutACode) {
     info.maximum << 601000.0, 5701000.0, 100.0;
     return info;
   };
-  EXPECT_EQ(refusal({fileIn("a.las", "EPSG:25832"), zone("b.las", "9")}), "no error");
-  EXPECT_EQ(refusal({zone("a.las", "9"), zone("b.las", "9")}), "no error");
-  const std::string other = refusal({fileIn("a.las", "EPSG:25832"), zone("b.las", "15")});
+  EXPECT_EQ(refusalOfReferences({fileIn("a.las", "EPSG:25832"), zone("b.las", "9")}), "no error");
+  EXPECT_EQ(refusalOfReferences({zone("a.las", "9"), zone("b.las", "9")}), "no error");
+  const std::string other =
+      refusalOfReferences({fileIn("a.las", "EPSG:25832"), zone("b.las", "15")});
   EXPECT_NE(other.find("block/b.las: is in "), std::string::npos) << other;
   EXPECT_NE(other.find("but block/a.las in EPSG:25832; reproject one of them"), std::string::npos);
-  EXPECT_NE(refusal({zone("a.las", "9"), zone("b.las", "15")}), "no error");
+  EXPECT_NE(refusalOfReferences({zone("a.las", "9"), zone("b.las", "15")}), "no error");
 }
 
 /// A file of two points in that CRS.
-std::filesystem::path twoPoints(const std::filesystem::path& path, const std::string& crs) {
+std::filesystem::path writeTwoPoints(const std::filesystem::path& path, const std::string& crs) {
   LasWriterOptions options;
   options.crs = crs;
   options.offset = Eigen::Vector3d(600000.0, 100000.0, 0.0) / unitsOfCrs(crs).horizontal.metres;
@@ -120,8 +121,8 @@ std::filesystem::path twoPoints(const std::filesystem::path& path, const std::st
 
 TEST(PointReference, StripsOfBothUnitsLieOnEachOther) {
   const auto folder = test::scratch("point_reference");
-  const auto strips = loadStrips({twoPoints(folder / "feet.las", "EPSG:2271"),
-                                  twoPoints(folder / "metres.las", "EPSG:32128")});
+  const auto strips = loadStrips({writeTwoPoints(folder / "feet.las", "EPSG:2271"),
+                                  writeTwoPoints(folder / "metres.las", "EPSG:32128")});
   ASSERT_EQ(strips.size(), 2U);
   for (const auto& strip : strips) {
     const Eigen::Vector3d first = strip.frame.toGround((*strip.cloud)[0].getVector3fMap());

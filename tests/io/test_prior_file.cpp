@@ -19,7 +19,7 @@ namespace pcl_als {
 namespace {
 
 using P = SystemParameter;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 constexpr double kArcsec = kRadiansPerArcsec;
 
 /// Pitch 20" +- 3", lever_arm_y 0.05 m +- 0.004 m, correlation 0.5; the rest is held.
@@ -78,9 +78,9 @@ TEST_F(PriorFileTest, ACalibrationChangesByTheDefault) {
 }
 
 TEST_F(PriorFileTest, AHistoryStatesTheChange) {
-  Json history{{"format", "pcl_als history"}, {"version", 1}};
-  history["instrument"] = Json::parse(calibrationJson(calibration()))["instrument"];
-  history["change_std"] = Json{{"boresight_pitch", 4.0}, {"lever_arm_y", 0.003}};
+  OrderedJson history{{"format", "pcl_als history"}, {"version", 1}};
+  history["instrument"] = OrderedJson::parse(calibrationJson(calibration()))["instrument"];
+  history["change_std"] = OrderedJson{{"boresight_pitch", 4.0}, {"lever_arm_y", 0.003}};
   const PriorFile file = read(history.dump());
   EXPECT_TRUE(file.is_history);
   expectCovariance(file.prior(), 0.005, 5.0);
@@ -147,7 +147,7 @@ TEST(CalibrationJson, RecordsPriorAndHeldParameters) {
   result.held_parameters.effect = Eigen::Vector2d(0.25, -30.0 * kArcsec);
 
   const std::string text = calibrationJson(result);
-  const Json instrument = Json::parse(text)["instrument"];
+  const OrderedJson instrument = OrderedJson::parse(text)["instrument"];
   EXPECT_NEAR(instrument["prior"]["mean"][1].get<double>(), 25.0, 1e-9);
   EXPECT_NEAR(instrument["prior"]["covariance"][0][1].get<double>(), 0.01, 1e-9);
   EXPECT_NEAR(instrument["prior"]["differences"][0]["change"].get<double>(), 65.0, 1e-9);
@@ -168,7 +168,7 @@ TEST(CalibrationJson, RecordsPriorAndHeldParameters) {
   EXPECT_TRUE(read.held_parameters.effect.isApprox(result.held_parameters.effect, 1e-12));
 
   // Without a prior nothing of it is written.
-  const Json plain = Json::parse(calibrationJson(calibration()))["instrument"];
+  const OrderedJson plain = OrderedJson::parse(calibrationJson(calibration()))["instrument"];
   EXPECT_FALSE(plain.contains("prior"));
   EXPECT_FALSE(plain.contains("held"));
   EXPECT_FALSE(plain["parameters"]["boresight_pitch"].contains("prior_share"));

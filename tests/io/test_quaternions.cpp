@@ -23,7 +23,7 @@ constexpr double kHalf = 0.70710678118654752;  // sine and cosine of 45 degrees
 const double kC5 = std::cos(5.0 * kRadiansPerDegree), kS5 = std::sin(5.0 * kRadiansPerDegree);
 const double kC15 = std::cos(15.0 * kRadiansPerDegree), kS15 = std::sin(15.0 * kRadiansPerDegree);
 
-std::filesystem::path file(const std::string& text) {
+std::filesystem::path quaternionFile(const std::string& text) {
   const auto path = test::scratch("quaternions") / "flight.txt";
   std::ofstream(path, std::ios::binary) << text;
   return path;
@@ -40,7 +40,7 @@ TrajectorySample sampleOf(const std::array<double, 4>& wxyz, AttitudeAxes stated
   char record[200];
   std::snprintf(record, sizeof record, "1 2 3 4 %.17g %.17g %.17g %.17g\n", wxyz[1], wxyz[2],
                 wxyz[3], wxyz[0]);
-  const auto path = file(std::string("timestamp tx ty tz qx qy qz qw\n") + record);
+  const auto path = quaternionFile(std::string("timestamp tx ty tz qx qy qz qw\n") + record);
   return readTrajectoryFile(path, axes(stated)).samples.at(0);
 }
 
@@ -139,13 +139,15 @@ TEST(Quaternions, AreFoundByTheNamesInUse) {
                                : names[std::string(names).find_first_of(",;\t")];
     std::string record = "1,2,3,4,0,0,0,1\n";
     for (char& c : record) c = c == ',' ? separator : c;
-    const TrajectoryFile flight = readTrajectoryFile(file(std::string(names) + "\n" + record));
+    const TrajectoryFile flight =
+        readTrajectoryFile(quaternionFile(std::string(names) + "\n" + record));
     ASSERT_EQ(flight.samples.size(), 1U) << names;
     EXPECT_EQ(flight.attitude, AttitudeForm::quaternion) << names;
     EXPECT_EQ(flight.samples[0].position, Eigen::Vector3d(2, 3, 4)) << names;
     expectAngles(flight.samples[0], 0, 0, 180);
     // What the caller states is not open.
-    EXPECT_EQ(readTrajectoryFile(file(std::string(names) + "\n" + record), axes(AttitudeAxes::ned))
+    EXPECT_EQ(readTrajectoryFile(quaternionFile(std::string(names) + "\n" + record),
+                                 axes(AttitudeAxes::ned))
                   .attitude,
               AttitudeForm::heading);
   }
@@ -153,15 +155,15 @@ TEST(Quaternions, AreFoundByTheNamesInUse) {
 
 TEST(Quaternions, YieldToRollPitchAndHeading) {
   const TrajectoryFile both = readTrajectoryFile(
-      file("time,x,y,z,roll,pitch,heading,qw,qx,qy,qz\n1,2,3,4,1,2,3,1,0,0,0\n"));
+      quaternionFile("time,x,y,z,roll,pitch,heading,qw,qx,qy,qz\n1,2,3,4,1,2,3,1,0,0,0\n"));
   EXPECT_EQ(both.attitude, AttitudeForm::heading);
   expectAngles(both.samples[0], 1, 2, 3);
   const TrajectoryFile part =
-      readTrajectoryFile(file("time,x,y,z,heading,qw,qx,qy,qz\n1,2,3,4,33,0,0,0,1\n"));
+      readTrajectoryFile(quaternionFile("time,x,y,z,heading,qw,qx,qy,qz\n1,2,3,4,33,0,0,0,1\n"));
   EXPECT_EQ(part.attitude, AttitudeForm::quaternion);
   expectAngles(part.samples[0], 0, 0, 180);
   // A column q1 alone is something else, such as a quality.
-  EXPECT_FALSE(readTrajectory(file("time,x,y,z,q1\n1,2,3,4,7\n"))[0].hasAttitude());
+  EXPECT_FALSE(readTrajectory(quaternionFile("time,x,y,z,q1\n1,2,3,4,7\n"))[0].hasAttitude());
 }
 
 TEST(Quaternions, AreNormalised) {
@@ -179,24 +181,24 @@ TEST(Quaternions, OfAnotherNormAreRefusedWithTheirLine) {
               {"1,2,3,4,1e300,1e300,0,0\n", "is inf, not 1"}};
   for (const auto& row : rows) {
     const std::string message =
-        test::messageOf<InputError>([&] { readTrajectory(file(head + row.record)); });
+        test::messageOf<InputError>([&] { readTrajectory(quaternionFile(head + row.record)); });
     EXPECT_NE(message.find("flight.txt: line 3: the norm of its quaternion"), std::string::npos)
         << message;
     EXPECT_NE(message.find(row.norm), std::string::npos) << message;
   }
   EXPECT_NE(test::messageOf<InputError>([&] {
-              readTrajectory(file("time,x,y,z,qw,qx,qz\n1,2,3,4,1,0,0\n"));
+              readTrajectory(quaternionFile("time,x,y,z,qw,qx,qz\n1,2,3,4,1,0,0\n"));
             }).find("no column 'qy'"),
             std::string::npos);
   EXPECT_NE(test::messageOf<InputError>([&] {
-              readTrajectory(file("time,x,y,z,qw,qx,qy,qz\n1,2,3,4,1,0,0,a\n"));
+              readTrajectory(quaternionFile("time,x,y,z,qw,qx,qy,qz\n1,2,3,4,1,0,0,a\n"));
             }).find("line 2, column 'qz': 'a' is not a number"),
             std::string::npos);
 }
 
 TEST(Quaternions, ThatLackAreUnknownAttitudes) {
   const auto samples = readTrajectory(
-      file("time,x,y,z,qw,qx,qy,qz\n1,2,3,4,,,,\n2,2,3,4,nan,0,0,1\n3,2,3,4,1,0,0,0\n"));
+      quaternionFile("time,x,y,z,qw,qx,qy,qz\n1,2,3,4,,,,\n2,2,3,4,nan,0,0,1\n3,2,3,4,1,0,0,0\n"));
   EXPECT_FALSE(samples[0].hasAttitude());
   EXPECT_FALSE(samples[1].hasAttitude());
   EXPECT_TRUE(samples[2].hasAttitude());

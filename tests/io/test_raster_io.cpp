@@ -33,7 +33,7 @@ std::size_t filesIn(const fs::path& folder) {
 }
 
 /// A value that tells the cell: exact in float.
-float valueOf(std::size_t band, int column, int row) {
+float cellValue(std::size_t band, int column, int row) {
   return static_cast<float>(band * 4096.0 + column + row * 0.25);
 }
 
@@ -45,7 +45,7 @@ Raster numbered(int columns, int rows, const std::string& crs = kUtm) {
     RasterBand& values = raster.addBand(name);
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column)
-        values.values[raster.grid.index(column, row)] = valueOf(band, column, row);
+        values.values[raster.grid.index(column, row)] = cellValue(band, column, row);
   }
   return raster;
 }

@@ -22,7 +22,7 @@ using test::PofBytes;
 
 constexpr double kWednesday = 3.0 * 86400.0;
 
-std::filesystem::path write(const std::string& name, const std::string& bytes) {
+std::filesystem::path writeExport(const std::string& name, const std::string& bytes) {
   static const std::filesystem::path folder = test::scratch("other_trajectories");
   const auto path = folder / name;
   std::ofstream(path, std::ios::binary) << bytes;
@@ -33,17 +33,17 @@ TrajectoryFacts inspect(const std::filesystem::path& path, const TrajectoryReadi
   return inspectTrajectory(path, reading);
 }
 
-std::string refusal(const std::string& name, const std::string& bytes) {
-  return test::messageOf<InputError>([&] { inspect(write(name, bytes)); });
+std::string refusalOfExport(const std::string& name, const std::string& bytes) {
+  return test::messageOf<InputError>([&] { inspect(writeExport(name, bytes)); });
 }
 
 void expectRefusal(const std::string& name, const std::string& bytes, const std::string& text) {
-  const std::string message = refusal(name, bytes);
+  const std::string message = refusalOfExport(name, bytes);
   EXPECT_NE(message.find(text), std::string::npos) << message;
 }
 
 TEST(RieglTrajectory, RecordsByHand) {
-  const TrajectoryFacts facts = inspect(write("flight.pof", PofBytes().str()));
+  const TrajectoryFacts facts = inspect(writeExport("flight.pof", PofBytes().str()));
   EXPECT_EQ(facts.format, "RIEGL trajectory");
   ASSERT_EQ(facts.samples, 3U);
   // 29 April 2015 was a Wednesday.
@@ -61,12 +61,12 @@ TEST(RieglTrajectory, RecordsByHand) {
 TEST(RieglTrajectory, TimesOfEverySystem) {
   PofBytes week;
   week.minor = 0, week.unit = 2, week.first_time = 313009.0;
-  EXPECT_EQ(inspect(write("week.pof", week.str())).times.first, 313009.0);
+  EXPECT_EQ(inspect(writeExport("week.pof", week.str())).times.first, 313009.0);
   week.system = 1;  // UTC lagged GPS time by 16 s in April 2015
-  EXPECT_EQ(inspect(write("week.pof", week.str())).times.first, 313025.0);
+  EXPECT_EQ(inspect(writeExport("week.pof", week.str())).times.first, 313025.0);
   TrajectoryReading reading;
   reading.leap_seconds = 17.0;
-  EXPECT_EQ(inspect(write("week.pof", week.str()), reading).times.first, 313026.0);
+  EXPECT_EQ(inspect(writeExport("week.pof", week.str()), reading).times.first, 313026.0);
   PofBytes night;
   night.first_time = 86399.0, night.step = 1.0;
   std::string bytes = night.str();
@@ -74,12 +74,12 @@ TEST(RieglTrajectory, TimesOfEverySystem) {
   std::memcpy(&bytes[315 + 64], &after_midnight, sizeof after_midnight);
   const double later = 1.5;
   std::memcpy(&bytes[315 + 128], &later, sizeof later);
-  EXPECT_EQ(inspect(write("night.pof", bytes)).times.last, kWednesday + 86401.5);
+  EXPECT_EQ(inspect(writeExport("night.pof", bytes)).times.last, kWednesday + 86401.5);
 }
 
 TEST(RieglTrajectory, StandardDeviationsOfTheFileBesideIt) {
-  write("both.pof", PofBytes().str());
-  const auto quality = write("both.poq", test::poqBytes(3, 1));
+  writeExport("both.pof", PofBytes().str());
+  const auto quality = writeExport("both.poq", test::poqBytes(3, 1));
   const auto folder = quality.parent_path();
   const TrajectoryFacts facts = inspect(folder / "both.pof");
   ASSERT_EQ(facts.accuracy.size(), 3U);
@@ -89,7 +89,7 @@ TEST(RieglTrajectory, StandardDeviationsOfTheFileBesideIt) {
   ASSERT_EQ(read.size(), 3U);
   EXPECT_EQ(read[0].time, kWednesday + 53809.0);
   // Without the trajectory the times stand as they are.
-  EXPECT_EQ(readAccuracies(write("alone.poq", test::poqBytes(2, 0)))[1].time, 53810.0);
+  EXPECT_EQ(readAccuracies(writeExport("alone.poq", test::poqBytes(2, 0)))[1].time, 53810.0);
 }
 
 TEST(RieglTrajectory, Refusals) {
@@ -111,7 +111,7 @@ TEST(RieglTrajectory, Refusals) {
   file = PofBytes(), file.step = -1.0;
   expectRefusal("backwards.pof", file.str(), "record 2: the time runs backwards");
   const auto quality = [](const std::string& bytes) {
-    return test::messageOf<InputError>([&] { readAccuracies(write("bad.poq", bytes)); });
+    return test::messageOf<InputError>([&] { readAccuracies(writeExport("bad.poq", bytes)); });
   };
   EXPECT_NE(quality("x").find("is not a RIEGL accuracy file"), std::string::npos);
   EXPECT_NE(quality(test::poqBytes(2, 1) + "x").find("truncated or damaged"), std::string::npos);
@@ -121,7 +121,7 @@ TEST(RieglTrajectory, Refusals) {
 }
 
 TEST(LeicaTrajectory, RecordsByHand) {
-  const TrajectoryFacts facts = inspect(write("flight.sol", test::solBytes(3)));
+  const TrajectoryFacts facts = inspect(writeExport("flight.sol", test::solBytes(3)));
   EXPECT_EQ(facts.format, "Leica trajectory");
   ASSERT_EQ(facts.samples, 3U);
   EXPECT_EQ(facts.times.first, 400825.0);

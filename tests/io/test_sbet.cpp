@@ -20,47 +20,43 @@
 namespace pcl_als {
 namespace {
 
-using Record = std::array<double, 17>;
+using SbetRecord = std::array<double, 17>;
 constexpr const char* kUtm11 = "EPSG:32611";
 
 /// Flying over 37.77 north, 119.02 west: inside UTM zone 11, west of its central meridian.
-Record record(double time) {
+SbetRecord record(double time) {
   return {time, 0.6592, -2.0773, 3000.0, 0, 0, 0, 0.01, -0.02, 1.0, 0.25, 0, 0, 0, 0, 0, 0};
 }
 
-std::filesystem::path file(const std::vector<Record>& records, std::size_t extra_bytes = 0) {
+std::filesystem::path sbetFile(const std::vector<SbetRecord>& records,
+                               std::size_t extra_bytes = 0) {
   const auto path = test::scratch("sbet") / "flight.sbet";
   std::ofstream stream(path, std::ios::binary);
-  for (const Record& r : records) {
-    stream.write(reinterpret_cast<const char*>(r.data()), sizeof(Record));
+  for (const SbetRecord& r : records) {
+    stream.write(reinterpret_cast<const char*>(r.data()), sizeof(SbetRecord));
   }
   stream << std::string(extra_bytes, '\0');
   return path;
 }
 
-std::string refusal(const std::vector<Record>& records, const std::string& crs = kUtm11,
-                    std::size_t extra_bytes = 0) {
-  try {
-    readTrajectory(file(records, extra_bytes), crs);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+std::string refusalOfSbet(const std::vector<SbetRecord>& records, const std::string& crs = kUtm11,
+                          std::size_t extra_bytes = 0) {
+  return test::messageOf<InputError>([&] { readTrajectory(sbetFile(records, extra_bytes), crs); });
 }
 
 #ifdef PCL_ALS_HAVE_PROJ
 
 /// A record with one field replaced, after a good one.
-std::vector<Record> withFault(std::size_t field, double value) {
-  std::vector<Record> records{record(10.0), record(11.0)};
+std::vector<SbetRecord> withFault(std::size_t field, double value) {
+  std::vector<SbetRecord> records{record(10.0), record(11.0)};
   records[1][field] = value;
   return records;
 }
 
 TEST(Sbet, CentralMeridianHasNoConvergenceAndEasting500Kilometres) {
-  Record r = record(1.0);
+  SbetRecord r = record(1.0);
   r[1] = 40.0 * kRadiansPerDegree, r[2] = -117.0 * kRadiansPerDegree;
-  const auto samples = readTrajectory(file({r}), kUtm11);
+  const auto samples = readTrajectory(sbetFile({r}), kUtm11);
   ASSERT_EQ(samples.size(), 1U);
   // 4 427 757.2188 m: 0.9996 times the meridian arc from the equator to 40 degrees on WGS 84.
   EXPECT_NEAR(samples[0].position.x(), 500000.0, 1e-6);
@@ -75,13 +71,13 @@ TEST(Sbet, HeadingIsFromGridNorth) {
   // Convergence of the Gauss-Krueger projection: dl sin(lat) (1 + dl^2 cos^2(lat) / 3 …), positive
   // east of the central meridian, where true north lies west of grid north.
   for (const double degrees : {-2.0, 2.0}) {
-    Record r = record(1.0);
+    SbetRecord r = record(1.0);
     const double latitude = 40.0 * kRadiansPerDegree, dl = degrees * kRadiansPerDegree;
     r[1] = latitude, r[2] = -117.0 * kRadiansPerDegree + dl;
     const double cosine = std::cos(latitude);
     const double convergence = dl * std::sin(latitude) * (1.0 + dl * dl * cosine * cosine / 3.0);
     // 2e-6: the next terms of the series.
-    EXPECT_NEAR(readTrajectory(file({r}), kUtm11)[0].heading, 0.75 - convergence, 2e-6);
+    EXPECT_NEAR(readTrajectory(sbetFile({r}), kUtm11)[0].heading, 0.75 - convergence, 2e-6);
   }
 }
 
@@ -102,26 +98,26 @@ TEST(Sbet, RefusesARecordThatLies) {
       {0, 1e300, "record 2: the time is out of range"},
   };
   for (const auto& row : cases) {
-    const std::string message = refusal(withFault(row.field, row.value));
+    const std::string message = refusalOfSbet(withFault(row.field, row.value));
     EXPECT_NE(message.find(row.expected), std::string::npos) << row.expected << " / " << message;
   }
 }
 
 TEST(Sbet, RefusesACrsThatIsNoMap) {
-  const std::vector<Record> records{record(1.0)};
-  EXPECT_NE(refusal(records, "EPSG:999999").find("PROJ does not know it"), std::string::npos);
-  EXPECT_NE(refusal(records, "nonsense").find("'nonsense'"), std::string::npos);
-  EXPECT_NE(refusal(records, "EPSG:4326").find("not a projected CRS"), std::string::npos);
-  EXPECT_NE(refusal(records, "EPSG:4978").find("not a projected CRS"), std::string::npos);
+  const std::vector<SbetRecord> records{record(1.0)};
+  EXPECT_NE(refusalOfSbet(records, "EPSG:999999").find("PROJ does not know it"), std::string::npos);
+  EXPECT_NE(refusalOfSbet(records, "nonsense").find("'nonsense'"), std::string::npos);
+  EXPECT_NE(refusalOfSbet(records, "EPSG:4326").find("not a projected CRS"), std::string::npos);
+  EXPECT_NE(refusalOfSbet(records, "EPSG:4978").find("not a projected CRS"), std::string::npos);
 }
 
 /// Over 37.77 north, 119.02 west: within zone 3 of California, given in feet and in metres.
 TEST(Sbet, IsInMetresWhateverTheCrsCountsIn) {
-  const std::vector<Record> records{record(1.0)};
-  const TrajectorySample metres = readTrajectory(file(records), "EPSG:26943")[0];
+  const std::vector<SbetRecord> records{record(1.0)};
+  const TrajectorySample metres = readTrajectory(sbetFile(records), "EPSG:26943")[0];
   // Easting of the zone: 2 000 000 m at 120.5 degrees west.
   ASSERT_NEAR(metres.position.x(), 2130000.0, 10000.0);
-  const TrajectorySample feet = readTrajectory(file(records), "EPSG:2227")[0];
+  const TrajectorySample feet = readTrajectory(sbetFile(records), "EPSG:2227")[0];
   // 2e-4 m: the false easting of the zone in feet is rounded to 0.001 ft.
   EXPECT_NEAR(feet.position.x(), metres.position.x(), 2e-4);
   EXPECT_NEAR(feet.position.y(), metres.position.y(), 2e-4);
@@ -133,7 +129,7 @@ TEST(Sbet, IsInMetresWhateverTheCrsCountsIn) {
 /// 27 m below the ellipsoid; otherwise refused with the cause, and never passed on without the
 /// geoid.
 TEST(Sbet, HeightsInFeetAreBroughtToMetres) {
-  const auto path = file({record(1.0)});
+  const auto path = sbetFile({record(1.0)});
   double height = 0.0;
   const std::string message = test::messageOf<InputError>(
       [&] { height = readTrajectory(path, "EPSG:26943+6360")[0].position.z(); });
@@ -143,13 +139,13 @@ TEST(Sbet, HeightsInFeetAreBroughtToMetres) {
 }
 
 TEST(Sbet, ATimeAcrossTheEndOfTheWeekRunsOn) {
-  const auto samples = readTrajectory(file({record(604799.5), record(0.5)}), kUtm11);
+  const auto samples = readTrajectory(sbetFile({record(604799.5), record(0.5)}), kUtm11);
   EXPECT_EQ(samples[1].time, 604800.5);
 }
 
 /// The file of the test data with the points it was recorded with.
 struct Leeward {
-  std::vector<Record> records;
+  std::vector<SbetRecord> records;
   std::vector<TrajectorySample> samples;
   PointChunk points;
 
@@ -159,10 +155,10 @@ struct Leeward {
     if (!sbet || !las) return std::nullopt;
     Leeward data;
     data.samples = readTrajectory(*sbet, kUtm11);
-    data.records.resize(std::filesystem::file_size(*sbet) / sizeof(Record));
+    data.records.resize(std::filesystem::file_size(*sbet) / sizeof(SbetRecord));
     std::ifstream(*sbet, std::ios::binary)
         .read(reinterpret_cast<char*>(data.records.data()),
-              static_cast<std::streamsize>(data.records.size() * sizeof(Record)));
+              static_cast<std::streamsize>(data.records.size() * sizeof(SbetRecord)));
     const LasFile file(*las);
     const auto count = static_cast<std::size_t>(file.header().point_count);
     std::vector<std::byte> raw(count * file.header().record_length);
@@ -217,7 +213,7 @@ TEST(Sbet, LeewardHeadingTrackAndCrab) {
   const auto &first = data->samples.front(), &last = data->samples.back();
   const Eigen::Vector3d flown = last.position - first.position;
   const double grid_track = std::atan2(flown.x(), flown.y()) / kRadiansPerDegree;
-  const Record& r = data->records[100];
+  const SbetRecord& r = data->records[100];
   const double grid_heading = data->samples[100].heading / kRadiansPerDegree;
   const double true_heading = (r[9] - r[10]) / kRadiansPerDegree;
   const double convergence = true_heading - grid_heading;  // west of the central meridian: < 0
@@ -253,20 +249,20 @@ TEST(Sbet, LeewardLookAnglesAgreeWithRecordedScanAngles) {
 #else
 
 TEST(Sbet, WithoutProjItSaysSo) {
-  EXPECT_NE(refusal({record(1.0)}).find("needs PROJ"), std::string::npos);
+  EXPECT_NE(refusalOfSbet({record(1.0)}).find("needs PROJ"), std::string::npos);
 }
 
 #endif
 
 TEST(Sbet, RefusesASizeThatIsNoMultipleOfARecord) {
-  EXPECT_NE(refusal({record(1.0)}, kUtm11, 5).find("141 bytes, is not a multiple of the 136"),
+  EXPECT_NE(refusalOfSbet({record(1.0)}, kUtm11, 5).find("141 bytes, is not a multiple of the 136"),
             std::string::npos);
-  EXPECT_NE(refusal({}, kUtm11).find("is empty"), std::string::npos);
+  EXPECT_NE(refusalOfSbet({}, kUtm11).find("is empty"), std::string::npos);
 }
 
 TEST(Sbet, WithoutACrsTheRemedyIsNamed) {
   try {
-    readTrajectory(file({record(1.0)}));
+    readTrajectory(sbetFile({record(1.0)}));
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_NE(std::string(error.what()).find("name no CRS"), std::string::npos) << error.what();

@@ -13,8 +13,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-PointFileSources file(const std::string& path, const std::vector<std::uint16_t>& ids,
-                      double first = 0.0, double last = 0.0) {
+PointFileSources fileOfSources(const std::string& path, const std::vector<std::uint16_t>& ids,
+                               double first = 0.0, double last = 0.0) {
   PointFileSources sources;
   sources.info.path = path;
   for (const std::uint16_t id : ids) {
@@ -29,7 +29,8 @@ PointFileSources file(const std::string& path, const std::vector<std::uint16_t>&
 }
 
 TEST(StripNaming, IdsAreNumbersAndJoinTiles) {
-  const StripNaming naming({file("west.las", {44266, 57138}), file("east.las", {57138, 57139})});
+  const StripNaming naming(
+      {fileOfSources("west.las", {44266, 57138}), fileOfSources("east.las", {57138, 57139})});
   EXPECT_EQ(naming.names(), (Names{"44266", "57138", "57139"}));
   EXPECT_EQ(naming.nameOf(0, 57138), "57138");
   EXPECT_EQ(naming.nameOf(1, 57138), "57138");
@@ -37,40 +38,53 @@ TEST(StripNaming, IdsAreNumbersAndJoinTiles) {
 }
 
 TEST(StripNaming, IdZeroIsNamedByTheFile) {
-  EXPECT_EQ(StripNaming({file("a/line1.las", {0})}).names(), Names{"line1"});
-  EXPECT_EQ(StripNaming({file("line1.las", {0}), file("line2.las", {0})}).names(),
+  EXPECT_EQ(StripNaming({fileOfSources("a/line1.las", {0})}).names(), Names{"line1"});
+  EXPECT_EQ(StripNaming({fileOfSources("line1.las", {0}), fileOfSources("line2.las", {0})}).names(),
             (Names{"line1", "line2"}));
-  EXPECT_EQ(StripNaming({file("line1.las", {0, 5}), file("line2.las", {5})}).names(),
-            (Names{"line1", "5"}));
+  EXPECT_EQ(
+      StripNaming({fileOfSources("line1.las", {0, 5}), fileOfSources("line2.las", {5})}).names(),
+      (Names{"line1", "5"}));
 }
 
 TEST(StripNaming, OneConstantIdInFilesFarApartInTimeMeansOneFilePerLine) {
-  const StripNaming naming({file("l1.las", {1}, 100, 140), file("l2.las", {1}, 300, 340)});
+  const StripNaming naming(
+      {fileOfSources("l1.las", {1}, 100, 140), fileOfSources("l2.las", {1}, 300, 340)});
   EXPECT_EQ(naming.names(), (Names{"l1", "l2"}));
   EXPECT_EQ(naming.nameOf(1, 1), "l2");
 }
 
 TEST(StripNaming, OneConstantIdInFilesThatFollowInTimeMeansTiles) {
-  EXPECT_EQ(StripNaming({file("t2.las", {7}, 141, 160), file("t1.las", {7}, 100, 140)}).names(),
-            Names{"7"});
-  EXPECT_EQ(StripNaming({file("t1.las", {7}, 100, 140), file("t2.las", {7}, 110, 120)}).names(),
-            Names{"7"});
+  EXPECT_EQ(
+      StripNaming({fileOfSources("t2.las", {7}, 141, 160), fileOfSources("t1.las", {7}, 100, 140)})
+          .names(),
+      Names{"7"});
+  EXPECT_EQ(
+      StripNaming({fileOfSources("t1.las", {7}, 100, 140), fileOfSources("t2.las", {7}, 110, 120)})
+          .names(),
+      Names{"7"});
 }
 
 TEST(StripNaming, OneConstantIdWithoutTimesMeansOneFilePerLine) {
-  EXPECT_EQ(StripNaming({file("l1.las", {1}), file("l2.las", {1})}).names(), (Names{"l1", "l2"}));
+  EXPECT_EQ(StripNaming({fileOfSources("l1.las", {1}), fileOfSources("l2.las", {1})}).names(),
+            (Names{"l1", "l2"}));
 }
 
 TEST(StripNaming, DifferentSingleIdsAreNumbers) {
-  EXPECT_EQ(StripNaming({file("strip1.las", {1}), file("strip2.las", {2})}).names(),
-            (Names{"1", "2"}));
+  EXPECT_EQ(
+      StripNaming({fileOfSources("strip1.las", {1}), fileOfSources("strip2.las", {2})}).names(),
+      (Names{"1", "2"}));
 }
 
 TEST(StripNaming, ATakenStemIsReplaced) {
-  EXPECT_EQ(StripNaming({file("5.las", {0}), file("b.las", {5})}).names(), (Names{"5.las", "5"}));
-  EXPECT_EQ(StripNaming({file("a/s.las", {0}), file("b/s.las", {0}), file("c/s.las", {0})}).names(),
+  EXPECT_EQ(StripNaming({fileOfSources("5.las", {0}), fileOfSources("b.las", {5})}).names(),
+            (Names{"5.las", "5"}));
+  EXPECT_EQ(StripNaming({fileOfSources("a/s.las", {0}), fileOfSources("b/s.las", {0}),
+                         fileOfSources("c/s.las", {0})})
+                .names(),
             (Names{"s", "s.las", "c/s.las"}));
-  EXPECT_EQ(StripNaming({file("s.las", {0}), file("s.las", {0}), file("s.las", {0})}).names(),
+  EXPECT_EQ(StripNaming({fileOfSources("s.las", {0}), fileOfSources("s.las", {0}),
+                         fileOfSources("s.las", {0})})
+                .names(),
             (Names{"s", "s.las", "s.las#2"}));
 }
 

@@ -50,7 +50,7 @@ StripWithColumns makeStrip(const std::string& id = "12") {
   return strip;
 }
 
-double valueOf(const StripWithColumns& strip, const std::string& name, std::size_t point) {
+double columnValue(const StripWithColumns& strip, const std::string& name, std::size_t point) {
   for (const PointColumn& column : strip.columns)
     if (column.field.name == name) return column.values.at(point);
   ADD_FAILURE() << "no column " << name;
@@ -100,13 +100,13 @@ TEST_P(StripWriter, KeepsEveryField) {
   EXPECT_EQ(loaded[0].id, "12");
   expectSamePoints(loaded[0], strip);
   EXPECT_EQ((*loaded[0].cloud)[2].point_source_id, 12);
-  EXPECT_EQ(valueOf(loaded[0], "red", 2), 65535);
-  EXPECT_EQ(valueOf(loaded[0], "green", 2), 0);
-  EXPECT_EQ(valueOf(loaded[0], "nir", 1), 8);
+  EXPECT_EQ(columnValue(loaded[0], "red", 2), 65535);
+  EXPECT_EQ(columnValue(loaded[0], "green", 2), 0);
+  EXPECT_EQ(columnValue(loaded[0], "nir", 1), 8);
   EXPECT_EQ((*loaded[0].cloud)[1].user_data, 5);
-  EXPECT_TRUE(std::isnan(valueOf(loaded[0], "reflectance", 1)));
-  EXPECT_EQ(valueOf(loaded[0], "reflectance", 2), -1.25);
-  EXPECT_NEAR(valueOf(loaded[0], "height above ground", 0), 1.23, 1e-9);
+  EXPECT_TRUE(std::isnan(columnValue(loaded[0], "reflectance", 1)));
+  EXPECT_EQ(columnValue(loaded[0], "reflectance", 2), -1.25);
+  EXPECT_NEAR(columnValue(loaded[0], "height above ground", 0), 1.23, 1e-9);
 }
 
 TEST_P(StripWriter, ChoosesThePointFormatFromTheColumns) {
@@ -138,8 +138,8 @@ TEST(StripWriterFiles, ManyPointsOfSeveralStrips) {
   ASSERT_EQ(loaded.size(), 2U);
   expectSamePoints(loaded[0], first);
   expectSamePoints(loaded[1], second);
-  EXPECT_EQ(valueOf(loaded[0], "amplitude", 1), 0);
-  EXPECT_EQ(valueOf(loaded[1], "amplitude", 200002), 200002);
+  EXPECT_EQ(columnValue(loaded[0], "amplitude", 1), 0);
+  EXPECT_EQ(columnValue(loaded[1], "amplitude", 200002), 200002);
 }
 
 TEST(StripWriterFiles, AdjustedTimes) {
@@ -196,8 +196,8 @@ TEST(StripLoading, ColumnsByNameAndWindow) {
   const auto strips = loadStrips({folder / "a.las", folder / "b.las"}, loading);
   ASSERT_EQ(strips.size(), 1U);
   ASSERT_EQ(strips[0].columns.size(), 1U);
-  EXPECT_EQ(valueOf(strips[0], "amplitude", 2), 3);
-  EXPECT_TRUE(std::isnan(valueOf(strips[0], "amplitude", 5)));  // b.las has no such field
+  EXPECT_EQ(columnValue(strips[0], "amplitude", 2), 3);
+  EXPECT_TRUE(std::isnan(columnValue(strips[0], "amplitude", 5)));  // b.las has no such field
 
   loading.columns = {"width"};
   EXPECT_THROW(loadStrips({folder / "a.las"}, loading), InputError);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::int32_t kHeader = 1376, kRecord = 64;
 
-void put(std::string& bytes, std::size_t at, std::int32_t value) {
+void store(std::string& bytes, std::size_t at, std::int32_t value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
@@ -29,11 +29,11 @@ void put(std::string& bytes, std::size_t at, std::int32_t value) {
 std::string content(std::size_t at = 0, std::int32_t value = 0) {
   std::string bytes(kHeader + 2 * kRecord, '\0');
   bytes.replace(0, 8, "TSCANTRJ");
-  put(bytes, 8, 20010715);
-  put(bytes, 12, kHeader);
-  put(bytes, 16, 2);
-  put(bytes, 20, kRecord);
-  if (at > 0) put(bytes, at, value);
+  store(bytes, 8, 20010715);
+  store(bytes, 12, kHeader);
+  store(bytes, 16, 2);
+  store(bytes, 20, kRecord);
+  if (at > 0) store(bytes, at, value);
   for (int i = 0; i < 2; ++i) {
     const double record[7] = {100.0 + i, 500000.0, 5000000.0 + 60.0 * i, 1500.0, 359.0, 2.0, -1.0};
     std::memcpy(bytes.data() + kHeader + i * kRecord, record, sizeof record);
@@ -41,18 +41,18 @@ std::string content(std::size_t at = 0, std::int32_t value = 0) {
   return bytes;
 }
 
-std::filesystem::path file(const std::string& bytes) {
+std::filesystem::path trjFile(const std::string& bytes) {
   const auto path = test::scratch("terrascan_trj") / "flight.trj";
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
 }
 
-std::string refusal(const std::string& bytes) {
-  return test::messageOf<InputError>([&] { readTrajectory(file(bytes)); });
+std::string refusalOfTrj(const std::string& bytes) {
+  return test::messageOf<InputError>([&] { readTrajectory(trjFile(bytes)); });
 }
 
 TEST(TerrascanTrj, RecordsByHand) {
-  const TrajectoryFile flight = readTrajectoryFile(file(content()), TrajectoryReading());
+  const TrajectoryFile flight = readTrajectoryFile(trjFile(content()), TrajectoryReading());
   ASSERT_EQ(flight.samples.size(), 2U);
   EXPECT_EQ(flight.format, "TerraScan trajectory");
   const TrajectorySample& sample = flight.samples[1];
@@ -64,20 +64,21 @@ TEST(TerrascanTrj, RecordsByHand) {
 }
 
 TEST(TerrascanTrj, RefusesHeadersThatTheFileContradicts) {
-  EXPECT_NE(refusal("TSCANTRJ").find("begins with TSCANTRJ"), std::string::npos);
-  EXPECT_NE(refusal("x" + content()).find("begins with TSCANTRJ"), std::string::npos);
+  EXPECT_NE(refusalOfTrj("TSCANTRJ").find("begins with TSCANTRJ"), std::string::npos);
+  EXPECT_NE(refusalOfTrj("x" + content()).find("begins with TSCANTRJ"), std::string::npos);
   const struct {
     std::size_t at;
     std::int32_t value;
   } cases[] = {{12, -1}, {12, 1 << 30}, {16, 0}, {16, 3}, {16, 1 << 30}, {16, -5}, {20, 8}};
   for (const auto& row : cases) {
-    EXPECT_NE(refusal(content(row.at, row.value)).find("truncated or damaged"), std::string::npos)
+    EXPECT_NE(refusalOfTrj(content(row.at, row.value)).find("truncated or damaged"),
+              std::string::npos)
         << row.at << ' ' << row.value;
   }
   std::string bad = content();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::memcpy(bad.data() + kHeader + kRecord + 8, &nan, sizeof nan);
-  EXPECT_NE(refusal(bad).find("record 2: a coordinate is out of range"), std::string::npos);
+  EXPECT_NE(refusalOfTrj(bad).find("record 2: a coordinate is out of range"), std::string::npos);
 }
 
 }  // namespace

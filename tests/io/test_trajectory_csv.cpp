@@ -15,20 +15,15 @@ namespace pcl_als {
 namespace {
 
 /// Writes \a text to a file of its own.
-std::filesystem::path file(const std::string& text) {
+std::filesystem::path csvFile(const std::string& text) {
   const auto path = test::scratch("trajectory_csv") / "trajectory.csv";
   std::ofstream(path, std::ios::binary) << text;
   return path;
 }
 
-/// The message of the InputError that reading \a text gives; empty when it gives none.
-std::string refusal(const std::string& text) {
-  try {
-    readTrajectory(file(text));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+/// The message of the InputError that reading \a text gives.
+std::string refusalOfTable(const std::string& text) {
+  return test::messageOf<InputError>([&] { readTrajectory(csvFile(text)); });
 }
 
 void expectTwoSamples(const std::vector<TrajectorySample>& samples) {
@@ -41,14 +36,14 @@ void expectTwoSamples(const std::vector<TrajectorySample>& samples) {
 
 TEST(TrajectoryCsv, ReadsWithoutAttitude) {
   const auto samples = readTrajectory(
-      file("time,x,y,z\n401000.005,700402.3197,5661069.72,-2.5\n401000.01,1e5,2,3\n"));
+      csvFile("time,x,y,z\n401000.005,700402.3197,5661069.72,-2.5\n401000.01,1e5,2,3\n"));
   expectTwoSamples(samples);
   EXPECT_FALSE(samples[0].hasAttitude());
 }
 
 TEST(TrajectoryCsv, AnglesBecomeRadians) {
-  const auto samples =
-      readTrajectory(file("heading,time,pitch,x,y,z,roll,comment\n270,1,-1,10,20,30,2,fine day\n"));
+  const auto samples = readTrajectory(
+      csvFile("heading,time,pitch,x,y,z,roll,comment\n270,1,-1,10,20,30,2,fine day\n"));
   ASSERT_EQ(samples.size(), 1U);
   EXPECT_EQ(samples[0].position, Eigen::Vector3d(10, 20, 30));
   EXPECT_DOUBLE_EQ(samples[0].heading, 1.5 * kPi);
@@ -63,7 +58,7 @@ TEST(TrajectoryCsv, AcceptsEverySeparatorAndLineEnd) {
       text += end + "401000.005,700402.3197,5661069.72,-2.5" + end + "401000.01,+1e5,2,3" + end;
       std::string replaced;
       for (const char c : text) replaced += c == ',' ? separator : std::string(1, c);
-      expectTwoSamples(readTrajectory(file(replaced)));
+      expectTwoSamples(readTrajectory(csvFile(replaced)));
     }
   }
 }
@@ -75,7 +70,7 @@ TEST(TrajectoryCsv, AcceptsTheNamesInUse) {
        {"GpsTime,Easting,Northing,Height,Roll,Pitch,Azimuth",
         "\"GPS Time (s)\",East,North,Elevation [m],Roll [deg],Pitch [deg],Heading [deg]",
         "gps_time,X,Y,Alt,ROLL,PITCH,HDG", "sow,X_m,Y_m,Altitude_m,roll_deg,pitch_deg,yaw_deg"}) {
-    const auto samples = readTrajectory(file(header + "\n1,10,20,30,2,-1,270\n"));
+    const auto samples = readTrajectory(csvFile(header + "\n1,10,20,30,2,-1,270\n"));
     ASSERT_EQ(samples.size(), 1U) << header;
     EXPECT_EQ(samples[0].time, 1.0) << header;
     EXPECT_EQ(samples[0].position, Eigen::Vector3d(10, 20, 30)) << header;
@@ -86,53 +81,53 @@ TEST(TrajectoryCsv, AcceptsTheNamesInUse) {
 }
 
 TEST(TrajectoryCsv, TakesRadiansWhereTheNameSaysSo) {
-  const auto samples =
-      readTrajectory(file("time,x,y,z,roll_rad,Pitch (rad),heading[radians]\n1,2,3,4,0.1,0.2,3\n"));
+  const auto samples = readTrajectory(
+      csvFile("time,x,y,z,roll_rad,Pitch (rad),heading[radians]\n1,2,3,4,0.1,0.2,3\n"));
   EXPECT_EQ(samples[0].roll, 0.1);
   EXPECT_EQ(samples[0].pitch, 0.2);
   EXPECT_EQ(samples[0].heading, 3.0);
 }
 
 TEST(TrajectoryCsv, SaysWhichColumnsItTook) {
-  EXPECT_EQ(readTrajectoryFile(file("time,X,Y,z\n1,2,3,4\n")).columns, "");
-  const TrajectoryFile taken = readTrajectoryFile(file("GpsTime,Y,X,Z,Yaw\n1,20,10,4,5\n"));
+  EXPECT_EQ(readTrajectoryFile(csvFile("time,X,Y,z\n1,2,3,4\n")).columns, "");
+  const TrajectoryFile taken = readTrajectoryFile(csvFile("GpsTime,Y,X,Z,Yaw\n1,20,10,4,5\n"));
   EXPECT_EQ(taken.columns, "columns: time from GpsTime, heading from Yaw");
   EXPECT_EQ(taken.attitude, AttitudeForm::yaw);
   EXPECT_EQ(taken.samples[0].position, Eigen::Vector3d(10, 20, 4));  // Y stands before X
-  EXPECT_EQ(readTrajectoryFile(file("time,x,y,z,azimuth\n1,2,3,4,5\n")).attitude,
+  EXPECT_EQ(readTrajectoryFile(csvFile("time,x,y,z,azimuth\n1,2,3,4,5\n")).attitude,
             AttitudeForm::heading);
 }
 
 TEST(TrajectoryCsv, SkipsByteOrderMarkCommentsAndEmptyLines) {
   expectTwoSamples(
-      readTrajectory(file("\xEF\xBB\xBF# made by hand\n\ntime,x,y,z\n# first\n"
-                          "401000.005,700402.3197,5661069.72,-2.5,\n\n401000.01,1e5,2,3")));
+      readTrajectory(csvFile("\xEF\xBB\xBF# made by hand\n\ntime,x,y,z\n# first\n"
+                             "401000.005,700402.3197,5661069.72,-2.5,\n\n401000.01,1e5,2,3")));
   for (const std::string mark : {"#", "%", "//", "% ", "// "}) {
     SCOPED_TRACE(mark);
     const std::string records =
         "401000.005 700402.3197 5661069.72 -2.5\n401000.01 1e5 2 3\n" + mark + "the end\n";
-    expectTwoSamples(readTrajectory(file(mark + "flight 7\ntime x y z\n" + records)));
-    expectTwoSamples(readTrajectory(file(mark + "time x y z\n" + records)));
-    EXPECT_NE(refusal(mark + "flight 7\n" + records).find("line 2 holds 4 numbers"),
+    expectTwoSamples(readTrajectory(csvFile(mark + "flight 7\ntime x y z\n" + records)));
+    expectTwoSamples(readTrajectory(csvFile(mark + "time x y z\n" + records)));
+    EXPECT_NE(refusalOfTable(mark + "flight 7\n" + records).find("line 2 holds 4 numbers"),
               std::string::npos);
   }
 }
 
 TEST(TrajectoryCsv, UnknownAttitudeIsNan) {
   const auto samples =
-      readTrajectory(file("time,x,y,z,roll,pitch,heading\n1,2,3,4,nan,,5\n2,2,3,4,1,2,3\n"));
+      readTrajectory(csvFile("time,x,y,z,roll,pitch,heading\n1,2,3,4,nan,,5\n2,2,3,4,1,2,3\n"));
   EXPECT_FALSE(samples[0].hasAttitude());
   EXPECT_TRUE(samples[1].hasAttitude());
 }
 
 TEST(TrajectoryCsv, KeepsFileOrder) {
-  const auto samples = readTrajectory(file("time,x,y,z\n3,0,0,0\n1,0,0,0\n2,0,0,0\n"));
+  const auto samples = readTrajectory(csvFile("time,x,y,z\n3,0,0,0\n1,0,0,0\n2,0,0,0\n"));
   EXPECT_EQ(samples[0].time, 3.0);
   EXPECT_EQ(samples[1].time, 1.0);
 }
 
 TEST(TrajectoryCsv, RunsOnAcrossTheEndOfTheWeek) {
-  const auto samples = readTrajectory(file("time,x,y,z\n604799.5,0,0,0\n0,0,0,0\n0.5,0,0,0\n"));
+  const auto samples = readTrajectory(csvFile("time,x,y,z\n604799.5,0,0,0\n0,0,0,0\n0.5,0,0,0\n"));
   EXPECT_EQ(samples[0].time, 604799.5);
   EXPECT_EQ(samples[1].time, 604800.0);
   EXPECT_EQ(samples[2].time, 604800.5);
@@ -171,16 +166,16 @@ TEST(TrajectoryCsv, ErrorsNameFileLineAndColumn) {
       {"time,x,y,z,roll\n1,2,3,4,-inf\n", "column 'roll': '-inf' is not a finite number"},
   };
   for (const auto& row : cases) {
-    const std::string message = refusal(row.text);
+    const std::string message = refusalOfTable(row.text);
     EXPECT_NE(message.find(row.expected), std::string::npos) << row.expected << " / " << message;
     EXPECT_NE(message.find("trajectory.csv: "), std::string::npos) << message;
   }
 }
 
 TEST(TrajectoryCsv, BytesThatAreNoTextAreQuotedSafely) {
-  const std::string message = refusal("time,x,y,z\n1,2,\x01\x02\x1b[31m,4\n");
+  const std::string message = refusalOfTable("time,x,y,z\n1,2,\x01\x02\x1b[31m,4\n");
   EXPECT_NE(message.find("'??"), std::string::npos) << message;
-  EXPECT_NE(refusal(std::string("time,x\n\0,4\n", 11)).find("zero byte"), std::string::npos);
+  EXPECT_NE(refusalOfTable(std::string("time,x\n\0,4\n", 11)).find("zero byte"), std::string::npos);
 }
 
 TEST(TrajectoryCsv, MissingFileAndFolderAreNamed) {

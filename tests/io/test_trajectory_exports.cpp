@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kUtm32 = "EPSG:32632";
 
-std::filesystem::path file(const std::string& text) {
+std::filesystem::path exportFile(const std::string& text) {
   const auto path = test::scratch("trajectory_exports") / "flight.txt";
   std::ofstream(path, std::ios::binary) << text;
   return path;
@@ -30,8 +30,8 @@ TrajectoryReading reading(const std::string& crs = {}) {
   return reading;
 }
 
-std::string refusal(const std::string& text, const TrajectoryReading& how) {
-  return test::messageOf<Error>([&] { readTrajectoryFile(file(text), how); });
+std::string refusalOfReading(const std::string& text, const TrajectoryReading& how) {
+  return test::messageOf<Error>([&] { readTrajectoryFile(exportFile(text), how); });
 }
 
 const std::string kInertialExplorer =
@@ -62,21 +62,24 @@ TEST(InertialExplorer, SecondsOfTheDayBesideADate) {
                                                         {"Date", "09/21/2013"},
                                                         {"Date(MDY)", "09/21/2013"},
                                                         {"Date(DMY)", "21/09/2013"}}) {
-    const TrajectoryFile flight = readTrajectoryFile(file(dated(name, date, "72007.5")), reading());
+    const TrajectoryFile flight =
+        readTrajectoryFile(exportFile(dated(name, date, "72007.5")), reading());
     EXPECT_NEAR(flight.samples.front().time, kTime, 1e-6) << name << " " << date;
     TrajectoryReading stated = reading();
     stated.leap_seconds = 16.0;
-    EXPECT_NEAR(readTrajectoryFile(file(dated(name, date, "72007.5")), stated).samples[0].time,
-                kTime, 1e-6);
+    EXPECT_NEAR(
+        readTrajectoryFile(exportFile(dated(name, date, "72007.5")), stated).samples[0].time, kTime,
+        1e-6);
   }
   // Seconds of the week beside a date.
   const TrajectoryFile week =
-      readTrajectoryFile(file(dated("Date", "2013-09-21", "590407.5")), reading());
+      readTrajectoryFile(exportFile(dated("Date", "2013-09-21", "590407.5")), reading());
   EXPECT_NEAR(week.samples.front().time, kTime, 1e-6);
-  EXPECT_NE(refusal(dated("Date", "09/08/2013", "72007.5"), reading()).find("Date(YMD)"),
+  EXPECT_NE(refusalOfReading(dated("Date", "09/08/2013", "72007.5"), reading()).find("Date(YMD)"),
             std::string::npos);
-  EXPECT_NE(refusal(dated("Date", "2013-09-20", "590407.5"), reading()).find("day of the week"),
-            std::string::npos);
+  EXPECT_NE(
+      refusalOfReading(dated("Date", "2013-09-20", "590407.5"), reading()).find("day of the week"),
+      std::string::npos);
 }
 
 #ifdef PCL_ALS_HAVE_PROJ
@@ -86,15 +89,16 @@ constexpr double kNorthing40 = 0.9996 * 4429529.0302;
 
 TEST(InertialExplorer, DegreesMinutesSecondsBelowALineOfUnits) {
   const TrajectoryFile flight = readTrajectoryFile(
-      file(kInertialExplorer +
-           "  GPSTime       Latitude        Longitude        H-Ell   Heading    Pitch     Roll  "
-           "SDNorth SDEast SDHeight HdngSD PitchSD RollSD\n"
-           "    (sec)   (+/-D M S)       (+/-D M S)          (m)     (deg)    (deg)    (deg)  "
-           "(m) (m) (m) (arcmin) (arcmin) (arcmin)\n"
-           "  1000.000  40 00 00.00000   9 00 00.00000   3000.000  45.00000  -1.00000  2.00000 "
-           "0.01 0.02 0.03 1.2 0.6 0.3\n"
-           "  1001.000  40 00 00.00000   9 00 00.00000   3000.500  45.00000  -1.00000  2.00000 "
-           "0.01 0.02 0.03 1.2 0.6 0.3\n"),
+      exportFile(
+          kInertialExplorer +
+          "  GPSTime       Latitude        Longitude        H-Ell   Heading    Pitch     Roll  "
+          "SDNorth SDEast SDHeight HdngSD PitchSD RollSD\n"
+          "    (sec)   (+/-D M S)       (+/-D M S)          (m)     (deg)    (deg)    (deg)  "
+          "(m) (m) (m) (arcmin) (arcmin) (arcmin)\n"
+          "  1000.000  40 00 00.00000   9 00 00.00000   3000.000  45.00000  -1.00000  2.00000 "
+          "0.01 0.02 0.03 1.2 0.6 0.3\n"
+          "  1001.000  40 00 00.00000   9 00 00.00000   3000.500  45.00000  -1.00000  2.00000 "
+          "0.01 0.02 0.03 1.2 0.6 0.3\n"),
       reading(kUtm32));
   ASSERT_EQ(flight.samples.size(), 2U);
   const TrajectorySample& sample = flight.samples[0];
@@ -113,10 +117,11 @@ TEST(InertialExplorer, DegreesMinutesSecondsBelowALineOfUnits) {
 
 TEST(InertialExplorer, SouthAndWestAndTheWeek) {
   const TrajectoryFile flight = readTrajectoryFile(
-      file(kInertialExplorer +
-           "Week     GPSTime     UTCTime   Longitude    Latitude    H-Ell  Heading  Pitch  Roll\n"
-           "week       (sec)       (sec)       (deg)       (deg)      (m)    (deg)  (deg) (deg)\n"
-           "2254  120974.000  120956.000   -0.0100000   -0.0100000   10.0   359.0    1.0  -2.0\n"),
+      exportFile(
+          kInertialExplorer +
+          "Week     GPSTime     UTCTime   Longitude    Latitude    H-Ell  Heading  Pitch  Roll\n"
+          "week       (sec)       (sec)       (deg)       (deg)      (m)    (deg)  (deg) (deg)\n"
+          "2254  120974.000  120956.000   -0.0100000   -0.0100000   10.0   359.0    1.0  -2.0\n"),
       reading("EPSG:32731"));
   const TrajectorySample& sample = flight.samples.front();
   EXPECT_EQ(sample.time, 2254 * 604800.0 + 120974.0);  // the GPS column, not that of UTC
@@ -126,8 +131,10 @@ TEST(InertialExplorer, SouthAndWestAndTheWeek) {
 
 TEST(InertialExplorer, SignOfZeroDegreesCounts) {
   const std::string head = "GPSTime Latitude Longitude H-Ell\n(sec) (+/-D M S) (+/-D M S) (m)\n";
-  const auto north = readTrajectoryFile(file(head + "1 0 30 0.0 3 0 0.0 5\n"), reading(kUtm32));
-  const auto south = readTrajectoryFile(file(head + "1 -0 30 0.0 3 0 0.0 5\n"), reading(kUtm32));
+  const auto north =
+      readTrajectoryFile(exportFile(head + "1 0 30 0.0 3 0 0.0 5\n"), reading(kUtm32));
+  const auto south =
+      readTrajectoryFile(exportFile(head + "1 -0 30 0.0 3 0 0.0 5\n"), reading(kUtm32));
   EXPECT_NEAR(north.samples[0].position.y(), -south.samples[0].position.y(), 1e-6);
   EXPECT_GT(north.samples[0].position.y(), 50000.0);
 }
@@ -147,7 +154,7 @@ const std::string kPospac =
     "0.011 0.012 0.013 0.001 0.002 0.003\n";
 
 TEST(Pospac, NamesWithCommasAndNumbersWithBlanks) {
-  const TrajectoryFile flight = readTrajectoryFile(file(kPospac), reading(kUtm32));
+  const TrajectoryFile flight = readTrajectoryFile(exportFile(kPospac), reading(kUtm32));
   ASSERT_EQ(flight.samples.size(), 1U);
   // Latitude and longitude, which need no projection to be known.
   EXPECT_NEAR(flight.samples[0].position.y(), kNorthing40, 1e-3);
@@ -158,7 +165,7 @@ TEST(Pospac, NamesWithCommasAndNumbersWithBlanks) {
 
 TEST(Terrapos, HeaderInAComment) {
   const TrajectoryFile flight = readTrajectoryFile(
-      file(
+      exportFile(
           "# Output from TerraPos\n#\n# Reference frame in navigation file:\n# ITRF2014\n# Week "
           "(GPS)\n# ToW (GPS)\n#---------------------------------------\n"
           "# Week       ToW (s)      Lat (deg)       Lon (deg)   Hght (m)    Roll(d)   Pitch(d)    "
@@ -180,8 +187,8 @@ TEST(TrajectoryFrames, GeocentricCoordinates) {
   const double r = 6378137.0 + 1000.0, lon = 9.0 * kRadiansPerDegree;
   char record[100];
   std::snprintf(record, sizeof record, "1,%.6f,%.6f,0\n", r * std::cos(lon), r * std::sin(lon));
-  const auto flight = readTrajectoryFile(file(std::string("time,X-ECEF,Y-ECEF,Z-ECEF\n") + record),
-                                         reading(kUtm32));
+  const auto flight = readTrajectoryFile(
+      exportFile(std::string("time,X-ECEF,Y-ECEF,Z-ECEF\n") + record), reading(kUtm32));
   EXPECT_NEAR(flight.samples[0].position.x(), 500000.0, 1e-4);
   EXPECT_NEAR(flight.samples[0].position.y(), 0.0, 1e-4);
   EXPECT_NEAR(flight.samples[0].position.z(), 1000.0, 1e-4);
@@ -193,12 +200,12 @@ TEST(TrajectoryFrames, AnotherZoneIsBroughtToThatOfThePoints) {
   // 12 degrees east, the limit of both zones: their eastings mirror each other at 500 km, their
   // grids differ by twice the convergence of 3 degrees times the sine of the latitude.
   const auto west = readTrajectoryFile(
-      file("time,lat,lon,h,heading,roll,pitch\n1,40,12,5,90,0,0\n"), reading(kUtm32));
+      exportFile("time,lat,lon,h,heading,roll,pitch\n1,40,12,5,90,0,0\n"), reading(kUtm32));
   const Eigen::Vector3d p = west.samples[0].position;
   char record[100];
   std::snprintf(record, sizeof record, "1,%.6f,%.6f,5,0,0,90\n", p.x(), p.y());
   const auto east =
-      readTrajectoryFile(file(std::string("time,x,y,z,roll,pitch,heading\n") + record), how);
+      readTrajectoryFile(exportFile(std::string("time,x,y,z,roll,pitch,heading\n") + record), how);
   EXPECT_NEAR(east.samples[0].position.x(), 1e6 - p.x(), 1e-3);
   EXPECT_NEAR(east.samples[0].position.y(), p.y(), 1e-3);
   const double convergence = 3.0 * kRadiansPerDegree * std::sin(40.0 * kRadiansPerDegree);
@@ -208,9 +215,9 @@ TEST(TrajectoryFrames, AnotherZoneIsBroughtToThatOfThePoints) {
 TEST(TrajectoryFrames, TrueNorthOfMapCoordinatesIsStated) {
   const std::string text = "time,x,y,z,roll,pitch,heading\n1,300000,4400000,5,0,0,90\n";
   TrajectoryReading how = reading(kUtm32);
-  const double grid = readTrajectoryFile(file(text), how).samples[0].heading;
+  const double grid = readTrajectoryFile(exportFile(text), how).samples[0].heading;
   how.north = NorthReference::true_north;
-  const TrajectoryFile turned = readTrajectoryFile(file(text), how);
+  const TrajectoryFile turned = readTrajectoryFile(exportFile(text), how);
   // West of the central meridian true north lies east of grid north.
   EXPECT_GT(turned.samples[0].heading - grid, 1.0 * kRadiansPerDegree);
   EXPECT_LT(turned.samples[0].heading - grid, 2.0 * kRadiansPerDegree);
@@ -218,21 +225,22 @@ TEST(TrajectoryFrames, TrueNorthOfMapCoordinatesIsStated) {
 }
 
 TEST(TrajectoryFrames, SaysHowHeightsAreTaken) {
-  const auto flight = readTrajectoryFile(file("time,lat,lon,h\n1,40,9,5\n"), reading(kUtm32));
+  const auto flight = readTrajectoryFile(exportFile("time,lat,lon,h\n1,40,9,5\n"), reading(kUtm32));
   ASSERT_EQ(flight.remarks.size(), 1U);
   EXPECT_NE(flight.remarks[0].find("its heights are ellipsoidal; the CRS of the points has no "
                                    "vertical part"),
             std::string::npos);
   TrajectoryReading how = reading(kUtm32);
   how.geoid = "47.5";
-  const auto lowered = readTrajectoryFile(file("time,lat,lon,h\n1,40,9,5\n"), how);
+  const auto lowered = readTrajectoryFile(exportFile("time,lat,lon,h\n1,40,9,5\n"), how);
   EXPECT_EQ(lowered.samples[0].position.z(), 5.0 - 47.5);
   how.geoid = "no_such_grid.gtx";
-  EXPECT_THROW(readTrajectoryFile(file("time,lat,lon,h\n1,40,9,5\n"), how), InputError);
+  EXPECT_THROW(readTrajectoryFile(exportFile("time,lat,lon,h\n1,40,9,5\n"), how), InputError);
 }
 
 TEST(TrajectoryFrames, HeightsAboveAGeoidStayAsTheyAre) {
-  const auto flight = readTrajectoryFile(file("time,lat,lon,H-MSL\n1,40,9,5\n"), reading(kUtm32));
+  const auto flight =
+      readTrajectoryFile(exportFile("time,lat,lon,H-MSL\n1,40,9,5\n"), reading(kUtm32));
   EXPECT_EQ(flight.samples[0].position.z(), 5.0);
   EXPECT_NE(flight.frame.find("height above a geoid"), std::string::npos);
 }
@@ -242,7 +250,8 @@ TEST(TrajectoryFrames, HeightsAboveAGeoidStayAsTheyAre) {
 TEST(TrajectoryFrames, AConstantUndulationIsSubtracted) {
   TrajectoryReading how;
   how.geoid = "47.5";
-  EXPECT_EQ(readTrajectoryFile(file("time,x,y,z\n1,2,3,100\n"), how).samples[0].position.z(), 52.5);
+  EXPECT_EQ(readTrajectoryFile(exportFile("time,x,y,z\n1,2,3,100\n"), how).samples[0].position.z(),
+            52.5);
 }
 
 TEST(NamedColumns, ReplaceTheHeader) {
@@ -250,38 +259,41 @@ TEST(NamedColumns, ReplaceTheHeader) {
   how.columns = {"time", "skip", "easting", "northing", "height", "roll", "pitch", "heading"};
   for (const std::string text : {"any words, of a header\n(s) (m)\n100.5,7,10,20,30,1,2,90\n",
                                  "100.5 7 10 20 30 1 2 90\n", "100.5;x;10;20;30;1;2;90\n"}) {
-    const auto flight = readTrajectoryFile(file(text), how);
+    const auto flight = readTrajectoryFile(exportFile(text), how);
     ASSERT_EQ(flight.samples.size(), 1U) << text;
     EXPECT_EQ(flight.samples[0].time, 100.5);
     EXPECT_EQ(flight.samples[0].position, Eigen::Vector3d(10, 20, 30));
     EXPECT_DOUBLE_EQ(flight.samples[0].heading, 0.5 * kPi);
   }
-  EXPECT_NE(refusal("1,2,3,4,5,6,7,8,9\n", how).find("9 column(s), the header has 8"),
+  EXPECT_NE(refusalOfReading("1,2,3,4,5,6,7,8,9\n", how).find("9 column(s), the header has 8"),
             std::string::npos);
-  EXPECT_NE(refusal("1,2,3\n", how).find("no line has 8 columns"), std::string::npos);
+  EXPECT_NE(refusalOfReading("1,2,3\n", how).find("no line has 8 columns"), std::string::npos);
   how.columns = {"time", "easting", "height"};
-  EXPECT_NE(refusal("1,2,3\n", how).find("no column 'y'"), std::string::npos);
+  EXPECT_NE(refusalOfReading("1,2,3\n", how).find("no column 'y'"), std::string::npos);
 }
 
 TEST(TrajectoryAngles, GonRadiansAndTheUnitOfTheCaller) {
   const std::string head = "time,x,y,z,roll,pitch,heading\n";
   TrajectoryReading how;
   how.angles = AngleUnit::gon;
-  EXPECT_DOUBLE_EQ(readTrajectoryFile(file(head + "1,2,3,4,0,0,100\n"), how).samples[0].heading,
-                   0.5 * kPi);
-  how.angles = AngleUnit::radians;
-  EXPECT_EQ(readTrajectoryFile(file(head + "1,2,3,4,0,0,1.5\n"), how).samples[0].heading, 1.5);
-  // What a column states counts more.
   EXPECT_DOUBLE_EQ(
-      readTrajectoryFile(file("time,x,y,z,heading[gon]\n1,2,3,4,200\n"), how).samples[0].heading,
-      kPi);
+      readTrajectoryFile(exportFile(head + "1,2,3,4,0,0,100\n"), how).samples[0].heading,
+      0.5 * kPi);
+  how.angles = AngleUnit::radians;
+  EXPECT_EQ(readTrajectoryFile(exportFile(head + "1,2,3,4,0,0,1.5\n"), how).samples[0].heading,
+            1.5);
+  // What a column states counts more.
+  EXPECT_DOUBLE_EQ(readTrajectoryFile(exportFile("time,x,y,z,heading[gon]\n1,2,3,4,200\n"), how)
+                       .samples[0]
+                       .heading,
+                   kPi);
 }
 
 TEST(TrajectoryAngles, AxesOfEastNorthUp) {
   TrajectoryReading how;
   how.axes = AttitudeAxes::enu;
   const auto sample =
-      readTrajectoryFile(file("time,x,y,z,roll,pitch,yaw\n1,2,3,4,1,2,0\n"), how).samples[0];
+      readTrajectoryFile(exportFile("time,x,y,z,roll,pitch,yaw\n1,2,3,4,1,2,0\n"), how).samples[0];
   EXPECT_DOUBLE_EQ(sample.roll, kRadiansPerDegree);
   EXPECT_DOUBLE_EQ(sample.pitch, -2.0 * kRadiansPerDegree);
   EXPECT_DOUBLE_EQ(sample.heading, 0.5 * kPi);  // yaw 0 points east
@@ -290,20 +302,24 @@ TEST(TrajectoryAngles, AxesOfEastNorthUp) {
 TEST(TrajectoryTimes, UtcNeedsLeapSeconds) {
   const std::string text = "UTCTime,x,y,z\n100,2,3,4\n";
   TrajectoryReading how;
-  EXPECT_NE(refusal(text, how).find("leap seconds"), std::string::npos);
+  EXPECT_NE(refusalOfReading(text, how).find("leap seconds"), std::string::npos);
   how.leap_seconds = 18.0;
-  EXPECT_EQ(readTrajectoryFile(file(text), how).samples[0].time, 118.0);
+  EXPECT_EQ(readTrajectoryFile(exportFile(text), how).samples[0].time, 118.0);
   // A GPS week gives them: 2254 is in 2023.
-  EXPECT_EQ(readTrajectoryFile(file("week,UTCTime,x,y,z\n2254,100,2,3,4\n"), {}).samples[0].time,
-            2254 * 604800.0 + 118.0);
+  EXPECT_EQ(
+      readTrajectoryFile(exportFile("week,UTCTime,x,y,z\n2254,100,2,3,4\n"), TrajectoryReading())
+          .samples[0]
+          .time,
+      2254 * 604800.0 + 118.0);
 }
 
 TEST(TrajectoryText, LinesBeforeTheHeaderAndUnitsInTheNames) {
   // As exported by tools for unmanned aircraft: words first, then the header.
   const auto flight = readTrajectoryFile(
-      file("Trajectory of flight 3\nSoftware 4.2\n\nGPS time [s];Easting [m];Northing [m];Altitude "
-           "[m];Roll [deg];Pitch [deg];Heading [deg]\n5;10;20;30;0;0;180\n"),
-      {});
+      exportFile(
+          "Trajectory of flight 3\nSoftware 4.2\n\nGPS time [s];Easting [m];Northing [m];Altitude "
+          "[m];Roll [deg];Pitch [deg];Heading [deg]\n5;10;20;30;0;0;180\n"),
+      TrajectoryReading());
   EXPECT_EQ(flight.samples[0].position, Eigen::Vector3d(10, 20, 30));
   EXPECT_DOUBLE_EQ(flight.samples[0].heading, kPi);
 }

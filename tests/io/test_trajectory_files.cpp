@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A straight flight at 60 m/s, one sample a second, at the times from, from + 1, …, to.
-void write(const fs::path& path, double from, double to, double aside = 0.0, double shift = 0.0) {
+void writeFlight(const fs::path& path, double from, double to, double aside = 0.0,
+                 double shift = 0.0) {
   std::ofstream stream(path);
   stream << "time,x,y,z,roll,pitch,heading\n";
   for (double t = from; t <= to; t += 1.0) {
@@ -36,8 +37,8 @@ class TrajectoryFiles : public ::testing::Test {
 };
 
 TEST_F(TrajectoryFiles, AreJoinedInOrderOfTime) {
-  write(folder / "late.csv", 300.0, 310.0);
-  write(folder / "early.csv", 100.0, 110.0);
+  writeFlight(folder / "late.csv", 300.0, 310.0);
+  writeFlight(folder / "early.csv", 100.0, 110.0);
   const auto flight = readTrajectoryFiles({folder / "late.csv", folder / "early.csv"}, {});
   ASSERT_EQ(flight.samples.size(), 22U);
   EXPECT_EQ(flight.samples[0].time, 100.0);
@@ -47,9 +48,9 @@ TEST_F(TrajectoryFiles, AreJoinedInOrderOfTime) {
 }
 
 TEST_F(TrajectoryFiles, RepeatedEpochsCountOnce) {
-  write(folder / "a.csv", 100.0, 110.0);
-  write(folder / "b.csv", 105.0, 120.0);
-  write(folder / "c.csv", 100.5, 104.5);  // between the samples of the first
+  writeFlight(folder / "a.csv", 100.0, 110.0);
+  writeFlight(folder / "b.csv", 105.0, 120.0);
+  writeFlight(folder / "c.csv", 100.5, 104.5);  // between the samples of the first
   const auto flight = readTrajectoryFiles({folder}, {});
   ASSERT_EQ(flight.samples.size(), 21U);
   for (std::size_t i = 0; i < 21; ++i) EXPECT_EQ(flight.samples[i].time, 100.0 + double(i));
@@ -57,34 +58,34 @@ TEST_F(TrajectoryFiles, RepeatedEpochsCountOnce) {
 }
 
 TEST_F(TrajectoryFiles, OverlapsThatDifferAreRefused) {
-  write(folder / "a.csv", 100.0, 110.0);
-  write(folder / "b.csv", 105.0, 120.0, 0.05);
+  writeFlight(folder / "a.csv", 100.0, 110.0);
+  writeFlight(folder / "b.csv", 105.0, 120.0, 0.05);
   const std::string message = refusal({folder});
   EXPECT_NE(message.find("b.csv and "), std::string::npos) << message;
   EXPECT_NE(message.find("lie 0.050 m apart at 105.000 s"), std::string::npos) << message;
 }
 
 TEST_F(TrajectoryFiles, AFileWithinAGapOfAnotherIsTaken) {
-  write(folder / "a.csv", 100.0, 110.0);
-  write(folder / "b.csv", 150.0, 160.0);
-  write(folder / "c.csv", 120.0, 130.0, 500.0);  // another line of the same flight
+  writeFlight(folder / "a.csv", 100.0, 110.0);
+  writeFlight(folder / "b.csv", 150.0, 160.0);
+  writeFlight(folder / "c.csv", 120.0, 130.0, 500.0);  // another line of the same flight
   const auto flight = readTrajectoryFiles({folder}, {});
   ASSERT_EQ(flight.samples.size(), 33U);
   EXPECT_EQ(flight.samples[11].position.y(), 500.0);
 }
 
 TEST_F(TrajectoryFiles, WeekSecondsAndAbsoluteTimesMeet) {
-  write(folder / "week.csv", 100.0, 110.0);
-  write(folder / "gps.csv", 200.0, 210.0, 0.0, 2254 * 604800.0);
+  writeFlight(folder / "week.csv", 100.0, 110.0);
+  writeFlight(folder / "gps.csv", 200.0, 210.0, 0.0, 2254 * 604800.0);
   const auto flight = readTrajectoryFiles({folder}, {});
   EXPECT_EQ(flight.samples.front().time, 100.0);
   EXPECT_EQ(flight.samples.back().time, 210.0);
-  write(folder / "other.csv", 300.0, 310.0, 0.0, 2260 * 604800.0);
+  writeFlight(folder / "other.csv", 300.0, 310.0, 0.0, 2260 * 604800.0);
   EXPECT_NE(refusal({folder}).find("another GPS week"), std::string::npos);
 }
 
 TEST_F(TrajectoryFiles, BadListsAreRefused) {
-  write(folder / "a.csv", 100.0, 110.0);
+  writeFlight(folder / "a.csv", 100.0, 110.0);
   EXPECT_NE(refusal({folder / "a.csv", folder / "a.csv"}).find("given twice"), std::string::npos);
   const fs::path empty = folder / "empty";
   fs::create_directory(empty);

@@ -18,19 +18,20 @@ namespace pcl_als {
 namespace {
 
 namespace fs = std::filesystem;
-using Record = std::array<double, 10>;
+using AccuracyRecord = std::array<double, 10>;
 constexpr double kArcmin = kRadiansPerDegree / 60.0;
 
-fs::path smrmsg(const std::vector<Record>& records, std::size_t extra_bytes = 0) {
+fs::path smrmsg(const std::vector<AccuracyRecord>& records, std::size_t extra_bytes = 0) {
   const auto path = test::scratch("trajectory_writer") / "smrmsg_flight.out";
   std::ofstream stream(path, std::ios::binary);
-  for (const Record& r : records)
-    stream.write(reinterpret_cast<const char*>(r.data()), sizeof(Record));
+  for (const AccuracyRecord& r : records)
+    stream.write(reinterpret_cast<const char*>(r.data()), sizeof(AccuracyRecord));
   stream << std::string(extra_bytes, '\0');
   return path;
 }
 
-std::string refusal(const std::vector<Record>& records, std::size_t extra_bytes = 0) {
+std::string refusalOfAccuracies(const std::vector<AccuracyRecord>& records,
+                                std::size_t extra_bytes = 0) {
   return test::messageOf<InputError>([&] { readAccuracies(smrmsg(records, extra_bytes)); });
 }
 
@@ -60,20 +61,20 @@ TEST(Smrmsg, RecordsByHand) {
 }
 
 TEST(Smrmsg, RefusesWhatIsNoStandardDeviation) {
-  const Record good{1.0, 0.02, 0.03, 0.05, 0, 0, 0, 0.5, 0.6, 1.5};
+  const AccuracyRecord good{1.0, 0.02, 0.03, 0.05, 0, 0, 0, 0.5, 0.6, 1.5};
   const auto with = [&](std::size_t field, double value) {
-    Record bad = good;
+    AccuracyRecord bad = good;
     bad[field] = value;
-    return refusal({good, bad});
+    return refusalOfAccuracies({good, bad});
   };
   EXPECT_NE(with(1, -0.1).find("record 2: a standard deviation is negative"), std::string::npos);
   EXPECT_NE(with(3, 5000.0).find("record 2: a value is not"), std::string::npos);
   EXPECT_NE(with(9, std::nan("")).find("record 2: a value is not"), std::string::npos);
   EXPECT_NE(with(0, 0.5).find("record 2: the time runs backwards"), std::string::npos);
-  EXPECT_NE(refusal({good}, 8).find("multiple of the 80"), std::string::npos);
-  EXPECT_NE(refusal({}).find("is empty"), std::string::npos);
+  EXPECT_NE(refusalOfAccuracies({good}, 8).find("multiple of the 80"), std::string::npos);
+  EXPECT_NE(refusalOfAccuracies({}).find("is empty"), std::string::npos);
   // Across the end of the week.
-  Record first = good, second = good, third = good;
+  AccuracyRecord first = good, second = good, third = good;
   first[0] = 604799.5, second[0] = 0.5, third[0] = 1.5;
   EXPECT_EQ(readAccuracies(smrmsg({first, second, third}))[2].time, 604801.5);
 }

@@ -4,9 +4,6 @@
 // User-defined projections of GeoTIFF keys against GDAL, which writes the keys, and reads them from
 // the same file.
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include <gdal_priv.h>
@@ -15,6 +12,7 @@
 
 #include <pcl_als/las/las_file.h>
 
+#include "file_bytes.h"
 #include "las_bytes.h"
 #include "test_files.h"
 
@@ -87,27 +85,16 @@ const Projection kProjections[] = {
      -40},
 };
 
-std::string fileBytes(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-template <typename T>
-T at(const std::string& bytes, std::size_t position) {
-  T value;
-  std::memcpy(&value, bytes.data() + position, sizeof value);
-  return value;
-}
-
 /// The bytes of a tag in the first directory of a little-endian TIFF; empty without it.
 std::string tag(const std::string& tiff, std::uint16_t wanted) {
-  const auto directory = at<std::uint32_t>(tiff, 4);
-  for (std::size_t i = 0; i < at<std::uint16_t>(tiff, directory); ++i) {
+  const auto directory = test::valueAt<std::uint32_t>(tiff, 4);
+  for (std::size_t i = 0; i < test::valueAt<std::uint16_t>(tiff, directory); ++i) {
     const std::size_t entry = directory + 2 + 12 * i;
-    if (at<std::uint16_t>(tiff, entry) != wanted) continue;
-    const std::size_t size = at<std::uint16_t>(tiff, entry + 2) == 12 ? 8 : 2;
-    const std::size_t bytes = size * at<std::uint32_t>(tiff, entry + 4);
-    return tiff.substr(bytes <= 4 ? entry + 8 : at<std::uint32_t>(tiff, entry + 8), bytes);
+    if (test::valueAt<std::uint16_t>(tiff, entry) != wanted) continue;
+    const std::size_t size = test::valueAt<std::uint16_t>(tiff, entry + 2) == 12 ? 8 : 2;
+    const std::size_t bytes = size * test::valueAt<std::uint32_t>(tiff, entry + 4);
+    return tiff.substr(bytes <= 4 ? entry + 8 : test::valueAt<std::uint32_t>(tiff, entry + 8),
+                       bytes);
   }
   return {};
 }
@@ -144,7 +131,7 @@ TEST_P(GeoKeyProjections, GiveTheCoordinatesThatGdalGives) {
       static_cast<GDALDataset*>(GDALOpen(tiff.c_str(), GA_ReadOnly)));
   ASSERT_TRUE(read && read->GetSpatialRef() != nullptr);
 
-  const std::string bytes = fileBytes(tiff);
+  const std::string bytes = test::readBytes(tiff);
   ASSERT_EQ(bytes.substr(0, 2), "II");
   LasBytes las;
   las.vlrs = {LasBytes::vlr("LASF_Projection", 34735, tag(bytes, 34735)),

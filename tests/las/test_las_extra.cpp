@@ -19,7 +19,7 @@ using test::extraBytesVlr;
 using test::LasBytes;
 
 constexpr std::size_t kRecord = 30;  ///< of point format 6
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfiniteValue = std::numeric_limits<double>::infinity();
 
 std::string described(unsigned type, const std::string& name, unsigned options = 0) {
   Descriptor descriptor;
@@ -191,7 +191,7 @@ TEST(LasExtra, ImpossibleScalesAreReplaced) {
   Descriptor zero, infinite;
   zero.name = "zero", zero.options = 8 | 16, zero.offset = 3.0;
   infinite.name = "infinite", infinite.options = 8 | 16;
-  infinite.scale = kInfinity, infinite.offset = std::nan("");
+  infinite.scale = kInfiniteValue, infinite.offset = std::nan("");
   const LasExtraBytes extra = joined({zero.str() + infinite.str()}, 34);
   EXPECT_EQ(extra.fields[0].scale, 1.0);
   EXPECT_EQ(extra.fields[0].offset, 3.0);

@@ -10,6 +10,7 @@
 #include <pcl_als/las/las_rewriter.h>
 
 #include "las_bytes.h"
+#include "las_edits.h"
 #include "real_data.h"
 #include "test_files.h"
 #include "wrong_boxes.h"
@@ -19,7 +20,7 @@ namespace {
 
 using test::LasBytes;
 
-const LasEdit kNothing = [](const LasRecordBlock&) {};
+using test::kNothing;
 
 void addToX(const LasRecordBlock& block, int units) {
   for (std::size_t i = 0; i < block.count; ++i) {

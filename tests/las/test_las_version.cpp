@@ -8,6 +8,7 @@
 #include <pcl_als/las/las_version.h>
 #include <pcl_als/las/las_writer.h>
 
+#include "file_bytes.h"
 #include "las_bytes.h"
 #include "test_files.h"
 
@@ -19,7 +20,7 @@ using test::LasBytes;
 // LAS 1.5 R00, table "Public Header Block".
 constexpr std::size_t kEncodingAt = 6, kLatestAt = 375, kEarliestAt = 383, kTimeOffsetAt = 391;
 
-std::filesystem::path put(const std::string& name, const std::string& bytes) {
+std::filesystem::path writeVersion(const std::string& name, const std::string& bytes) {
   const auto path = test::scratch("las_version") / name;
   test::writeBytes(path, bytes);
   return path;
@@ -33,13 +34,6 @@ PointChunk pointsOf(const LasFile& file) {
   decodeLasRecords(records.data(), h.point_count, h.record_length, file.layout(), h.scale, h.offset,
                    chunk);
   return chunk;
-}
-
-template <typename T>
-T at(const std::string& bytes, std::size_t position) {
-  T value;
-  std::memcpy(&value, &bytes[position], sizeof value);
-  return value;
 }
 
 LasBytes newest(unsigned encoding, unsigned time_offset) {
@@ -65,7 +59,7 @@ TEST(LasVersion, OffsetTimesBecomeAdjustedStandardTime) {
   for (const Case& c : {Case{65 | 16, 1500, 500e6}, Case{65 | 16, 1250, 250e6},
                         Case{65 | 16, 1000, 0.0}, Case{65 | 16, 500, -500e6},
                         Case{1 | 16, 1500, 0.0}, Case{16, 1500, 0.0}, Case{64 | 16, 1500, 0.0}}) {
-    const LasFile file(put("offset.las", newest(c.encoding, c.offset).str()));
+    const LasFile file(writeVersion("offset.las", newest(c.encoding, c.offset).str()));
     EXPECT_EQ(file.info().time_shift, c.shift) << c.encoding << ' ' << c.offset;
     EXPECT_EQ(file.info().time_kind,
               (c.encoding & 1U) != 0 ? TimeKind::adjusted_standard : TimeKind::week_seconds);
@@ -76,14 +70,14 @@ TEST(LasVersion, OffsetTimesBecomeAdjustedStandardTime) {
   }
   LasBytes older;
   older.encoding = 65;  // the bit is reserved in 1.4
-  EXPECT_EQ(LasFile(put("older.las", older.str())).info().time_shift, 0.0);
+  EXPECT_EQ(LasFile(writeVersion("older.las", older.str())).info().time_shift, 0.0);
 }
 
 TEST(LasVersion, ATimeOfZeroIsNone) {
   std::string bytes = newest(65 | 16, 1500).str();
   const double zero = 0.0;
   std::memcpy(&bytes[393 + 22], &zero, sizeof zero);
-  EXPECT_EQ(pointsOf(LasFile(put("zero.las", bytes))).gps_time[0], 0.0);
+  EXPECT_EQ(pointsOf(LasFile(writeVersion("zero.las", bytes))).gps_time[0], 0.0);
 }
 
 TEST(LasVersion, TheWriterStoresOffsetTimes) {
@@ -99,12 +93,12 @@ TEST(LasVersion, TheWriterStoresOffsetTimes) {
   writer.finish();
   const std::string bytes = test::readBytes(path);
   EXPECT_EQ(bytes.size(), 393U + 3 * 30);
-  EXPECT_EQ(at<std::uint16_t>(bytes, kEncodingAt), 1 | 16 | 64);
-  EXPECT_EQ(at<std::uint16_t>(bytes, kTimeOffsetAt), 1500);
-  EXPECT_EQ(at<double>(bytes, kEarliestAt), -49999999.75);
-  EXPECT_EQ(at<double>(bytes, kLatestAt), -49999899.5);
-  EXPECT_EQ(at<double>(bytes, 393 + 22), -49999999.75);
-  EXPECT_EQ(at<double>(bytes, 393 + 30 + 22), 0.0);
+  EXPECT_EQ(test::valueAt<std::uint16_t>(bytes, kEncodingAt), 1 | 16 | 64);
+  EXPECT_EQ(test::valueAt<std::uint16_t>(bytes, kTimeOffsetAt), 1500);
+  EXPECT_EQ(test::valueAt<double>(bytes, kEarliestAt), -49999999.75);
+  EXPECT_EQ(test::valueAt<double>(bytes, kLatestAt), -49999899.5);
+  EXPECT_EQ(test::valueAt<double>(bytes, 393 + 22), -49999999.75);
+  EXPECT_EQ(test::valueAt<double>(bytes, 393 + 30 + 22), 0.0);
   EXPECT_EQ(pointsOf(LasFile(path)).gps_time, p.gps_time);
   options.time_kind = TimeKind::week_seconds;
   EXPECT_THROW(LasWriter(path, options), UsageError);
@@ -126,7 +120,7 @@ TEST(LasVersion, ToTheNewerVersionAndBackGivesTheSameBytes) {
     las.vlrs = {LasBytes::vlr("unknown", 77, "payload")};
     las.evlrs = {LasBytes::evlr("someone", 5, std::string(300, 'w'))};
     las.after = "bytes behind the end";
-    const LasFile file(put("in.las", las.str()));
+    const LasFile file(writeVersion("in.las", las.str()));
     const auto path = test::scratch("las_version_back") / "newer.las";
     convertLasVersion(file, path, {5, 1250});
     const LasFile newer(path);
@@ -139,7 +133,7 @@ TEST(LasVersion, ToTheNewerVersionAndBackGivesTheSameBytes) {
     // Times near the offset have steps of 3e-8 s.
     for (unsigned i = 0; i < las.count; ++i) {
       const std::size_t time = las.offsetToPoints() + i * las.record(0).size() + 22;
-      EXPECT_NEAR(at<double>(back, time), LasBytes::time(i), 3e-8);
+      EXPECT_NEAR(test::valueAt<double>(back, time), LasBytes::time(i), 3e-8);
       const double exact = LasBytes::time(i);
       std::memcpy(&back[time], &exact, sizeof exact);
     }
@@ -157,7 +151,7 @@ TEST(LasVersion, OlderFormatsGetTheirFields) {
     las.format = format;
     las.count = 40;
     las.extra = 3;
-    const LasFile file(put("older.las", las.str()));
+    const LasFile file(writeVersion("older.las", las.str()));
     const auto path = test::scratch("las_version_older") / "out.laz";
     const LasRewriteResult result = convertLasVersion(file, path, {5, {}});
     EXPECT_EQ(result.points, 40U);
@@ -193,12 +187,12 @@ TEST(LasVersion, OlderFormatsGetTheirFields) {
 TEST(LasVersion, RefusesWhatAVersionCannotHold) {
   LasBytes las;
   las.encoding = 16;
-  const LasFile week(put("week.las", las.str()));
+  const LasFile week(writeVersion("week.las", las.str()));
   EXPECT_THROW(converted(week, "a.las", {5, 1500}), InputError);
   EXPECT_THROW(converted(week, "a.las", {4, 1500}), UsageError);
   EXPECT_THROW(converted(week, "a.las", {3, {}}), UsageError);
   EXPECT_THROW(convertLasVersion(week, week.path(), {5, {}}), UsageError);
-  EXPECT_EQ(at<std::uint16_t>(converted(week, "a.las", {5, {}}), kEncodingAt), 16);
+  EXPECT_EQ(test::valueAt<std::uint16_t>(converted(week, "a.las", {5, {}}), kEncodingAt), 16);
 }
 
 /// What PROJ does not know stays, and keys under the encoding of a WKT become one.
@@ -207,7 +201,7 @@ TEST(LasVersion, KeepsTheCrs) {
   las.encoding = 1 | 16;
   las.vlrs = {LasBytes::vlr("LASF_Projection", 2112, "PROJCS[x]")};
   const auto path = test::scratch("las_version_crs") / "newer.las";
-  convertLasVersion(LasFile(put("text.las", las.str())), path, {5, {}});
+  convertLasVersion(LasFile(writeVersion("text.las", las.str())), path, {5, {}});
   EXPECT_EQ(LasFile(path).crs(), "PROJCS[x]");
   EXPECT_EQ(converted(LasFile(path), "back.las", {4, {}}), las.str());
   test::Bytes keys;  // a transverse Mercator projection of its own
@@ -218,7 +212,7 @@ TEST(LasVersion, KeepsTheCrs) {
   keys.u16(3080).u16(34736).u16(1).u16(0).u16(3082).u16(34736).u16(1).u16(1);
   las.vlrs = {LasBytes::vlr("LASF_Projection", 34735, keys.str()),
               LasBytes::vlr("LASF_Projection", 34736, test::Bytes().f64(9.5).f64(5e5).str())};
-  const LasFile old(put("keys.las", las.str()));
+  const LasFile old(writeVersion("keys.las", las.str()));
   convertLasVersion(old, path, {5, {}});
   const LasFile newer(path);
   ASSERT_EQ(newer.vlrs().size(), 1U);
@@ -233,7 +227,7 @@ TEST(LasVersion, ReadsPointsWithAWrongNumberOfVlrs) {
     const std::string right = las.str();
     std::string bytes = right;
     std::memcpy(&bytes[100], &announced, sizeof announced);
-    const LasFile file(put("vlrs.las", bytes));
+    const LasFile file(writeVersion("vlrs.las", bytes));
     EXPECT_EQ(file.vlrs().size(), 1U);
     EXPECT_EQ(pointsOf(file).size(), 5U);
     ASSERT_EQ(file.remarks().size(), 1U);
@@ -250,7 +244,7 @@ TEST(LasVersion, AVlrThatReachesIntoThePointsIsDamage) {
   std::string bytes = las.str();
   const std::uint16_t length = 60000;
   std::memcpy(&bytes[375 + 64 + 20], &length, sizeof length);
-  const auto path = put("long.las", bytes);
+  const auto path = writeVersion("long.las", bytes);
   EXPECT_THROW(LasFile{path}, DamagedFile);
   const LasFile kept(path, kLazAllFields, LasDamage::keep_intact);
   EXPECT_EQ(kept.vlrs().size(), 1U);
@@ -263,7 +257,7 @@ TEST(LasVersion, ANegativeScaleReversesAnAxis) {
   std::string bytes = LasBytes().str();
   const double scale = -0.001;
   std::memcpy(&bytes[139], &scale, sizeof scale);
-  const LasFile file(put("negative.las", bytes));
+  const LasFile file(writeVersion("negative.las", bytes));
   EXPECT_EQ(pointsOf(file).y[2], LasBytes::Y(2) * -0.001 + LasBytes().offset_y);
   EXPECT_EQ(file.info().resolution.y(), 0.001);
   const auto moved = test::scratch("las_version_negative") / "moved.las";

@@ -8,15 +8,16 @@
 #include <pcl_als/las/las_selection.h>
 
 #include "las_bytes.h"
+#include "las_edits.h"
 #include "test_files.h"
 
 namespace pcl_als {
 namespace {
 
 namespace fs = std::filesystem;
+using test::kNothing;
 using test::LasBytes;
 
-const LasEdit kNothing = [](const LasRecordBlock&) {};
 const std::string kPackets(3 << 20, 'w');  // more than a block of the copy
 
 /// A file of waveforms, whose packets are in another file.

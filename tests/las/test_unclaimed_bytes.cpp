@@ -6,15 +6,16 @@
 #include <pcl_als/las/unclaimed_bytes.h>
 
 #include "las_bytes.h"
+#include "las_edits.h"
 #include "test_files.h"
 
 namespace pcl_als {
 namespace {
 
 namespace fs = std::filesystem;
+using test::kNothing;
 using test::LasBytes;
 
-const LasEdit kNothing = [](const LasRecordBlock&) {};
 constexpr std::size_t kLegacyCountAt = 107, kCountAt = 247;
 
 UnclaimedBytes of(const std::string& name, const std::string& bytes) {

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 enum class As { heading, yaw_from_east, quaternion_ned, quaternion_enu };
 constexpr double kPitch = 2.5, kRoll = -1.5, kCrab = 3.0;  // degrees
 
-Eigen::Quaterniond about(int axis, double degrees) {
+Eigen::Quaterniond quaternionAbout(int axis, double degrees) {
   return Eigen::Quaterniond(
       Eigen::AngleAxisd(degrees * kRadiansPerDegree, Eigen::Vector3d::Unit(axis)));
 }
@@ -37,8 +37,9 @@ std::string attitudeOf(double heading, As as) {
     return text;
   }
   const bool ned = as == As::quaternion_ned;
-  const Eigen::Quaterniond q =
-      about(2, ned ? heading : 90.0 - heading) * about(1, ned ? kPitch : -kPitch) * about(0, kRoll);
+  const Eigen::Quaterniond q = quaternionAbout(2, ned ? heading : 90.0 - heading) *
+                               quaternionAbout(1, ned ? kPitch : -kPitch) *
+                               quaternionAbout(0, kRoll);
   std::snprintf(text, sizeof text, "%.15f,%.15f,%.15f,%.15f", q.w(), q.x(), q.y(), q.z());
   return text;
 }
@@ -69,7 +70,7 @@ TrajectoryLoadingOptions options() {
   return options;
 }
 
-void expectEqual(const LoadedTrajectory& flight, const LoadedTrajectory& other) {
+void expectEqualFlights(const LoadedTrajectory& flight, const LoadedTrajectory& other) {
   ASSERT_EQ(flight.samples.size(), other.samples.size());
   for (std::size_t i = 0; i < flight.samples.size(); ++i) {
     const TrajectorySample &a = flight.samples[i], &b = other.samples[i];
@@ -95,7 +96,7 @@ TEST(LoadedTrajectory, TakesEveryFormOfAnAttitudeAsTheSame) {
     for (const As as : {As::yaw_from_east, As::quaternion_ned, As::quaternion_enu}) {
       const LoadedTrajectory flight =
           loadTrajectory(onMap(folder / "f.csv", as, course, 1e5), options());
-      expectEqual(flight, plain);
+      expectEqualFlights(flight, plain);
       EXPECT_TRUE(flight.trajectory->hasAttitude());
       EXPECT_TRUE(remarks(flight, as == As::quaternion_ned ? "to north, east, down, as the course"
                                   : as == As::quaternion_enu
@@ -114,8 +115,8 @@ TEST(LoadedTrajectory, JoinsFilesOfDifferentForms) {
                           options());
   };
   const LoadedTrajectory plain = flown(As::heading, As::heading, As::heading);
-  expectEqual(flown(As::heading, As::yaw_from_east, As::quaternion_enu), plain);
-  expectEqual(flown(As::quaternion_ned, As::heading, As::yaw_from_east), plain);
+  expectEqualFlights(flown(As::heading, As::yaw_from_east, As::quaternion_enu), plain);
+  expectEqualFlights(flown(As::quaternion_ned, As::heading, As::yaw_from_east), plain);
 }
 
 TEST(LoadedTrajectory, AsksForAxesThatTheCourseDoesNotShow) {
@@ -136,7 +137,7 @@ TEST(LoadedTrajectory, AsksForAxesThatTheCourseDoesNotShow) {
       loadTrajectory(onMap(folder / "p.csv", As::heading, 47.0, 1e5), options());
   TrajectoryLoadingOptions stated = options();
   stated.axes = AttitudeAxes::enu;
-  expectEqual(loadTrajectory(path, stated), plain);
+  expectEqualFlights(loadTrajectory(path, stated), plain);
   // Where no attitude is used, none is needed, and none is passed on.
   TrajectoryLoadingOptions positions = options();
   positions.attitude = AttitudeUse::ignore;
@@ -209,11 +210,11 @@ TEST(LoadedTrajectory, TurnsEveryFormToGridNorth) {
     const double turned = plain.samples[0].heading - (course - kCrab) * kRadiansPerDegree;
     EXPECT_NEAR(turned / kRadiansPerDegree, -convergence, 0.01);
     for (const As as : {As::yaw_from_east, As::quaternion_ned, As::quaternion_enu})
-      expectEqual(loadTrajectory(onEllipsoid(folder / "f.csv", as, course), in_utm), plain);
+      expectEqualFlights(loadTrajectory(onEllipsoid(folder / "f.csv", as, course), in_utm), plain);
     TrajectoryLoadingOptions stated = in_utm;
     stated.axes = AttitudeAxes::enu;
-    expectEqual(loadTrajectory(onEllipsoid(folder / "f.csv", As::quaternion_enu, course), stated),
-                plain);
+    expectEqualFlights(
+        loadTrajectory(onEllipsoid(folder / "f.csv", As::quaternion_enu, course), stated), plain);
   }
 }
 

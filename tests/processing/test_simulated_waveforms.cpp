@@ -13,9 +13,9 @@
 
 #include "test_files.h"
 
+namespace pcl_als {
 namespace {
 
-using namespace pcl_als;
 using simulation::SimulatedPulse;
 using simulation::SimulatedWaveforms;
 using simulation::SimulationOptions;
@@ -103,3 +103,4 @@ TEST(SimulatedWaveformFile, HasTheLengthOfItsPackets) {
 }
 
 }  // namespace
+}  // namespace pcl_als

@@ -23,7 +23,7 @@ using simulation::SimulationOptions;
 using test::SimulatedSurvey;
 
 /// Enough for what is compared here.
-CalibrationSettings quick() {
+CalibrationSettings quickSettings() {
   CalibrationSettings settings;
   settings.candidates = 20'000;
   return settings;
@@ -90,7 +90,7 @@ TEST(StatedMisfit, IsThatOfPointsWithoutTheOffsetOfASystem) {
   options.seed = 5;
   SimulatedSurvey survey(options);
   ASSERT_GE(survey.strips.size(), 4U);
-  CalibrationSettings settings = quick();
+  CalibrationSettings settings = quickSettings();
   settings.own.parameters.clear();
   settings.own.offset = true;
   settings.systems.resize(2);
@@ -119,7 +119,7 @@ TEST(StatedMisfit, IsThatOfPointsWithoutTheBiasesOfTwoSystems) {
   for (const char* strip : {"strip2", "strip4"})
     options.errors.add(std::string(strip) + ":boresight_roll=60");
   const SimulatedSurvey survey(options);
-  CalibrationSettings settings = quick();
+  CalibrationSettings settings = quickSettings();
   settings.systems = {{"morning", {"1", "3", "5"}}, {"noon", {"2", "4"}}};
   expectStatedMisfit(calibrated(survey, settings), survey, settings);
 }
@@ -130,9 +130,9 @@ TEST(StatedMisfit, IsThatOfPointsWithoutErrorSources) {
   options.seed = 6;
   options.errors.add("mirror_torsion=60");
   const SimulatedSurvey survey(options);
-  const CalibrationResult result = calibrated(survey, quick());
+  const CalibrationResult result = calibrated(survey, quickSettings());
   EXPECT_FALSE(result.sources.isZero(0.0));
-  expectStatedMisfit(result, survey, quick());
+  expectStatedMisfit(result, survey, quickSettings());
 }
 
 /// A strip that is held fixed is not corrected, although its common error is part of the model.
@@ -141,7 +141,7 @@ TEST(StatedMisfit, IsThatOfPointsBesideFixedStrips) {
   options.noise = simulation::NoiseOptions::named("realistic");
   options.seed = 7;
   const SimulatedSurvey survey(options);
-  CalibrationSettings settings = quick();
+  CalibrationSettings settings = quickSettings();
   settings.fixed = {"3"};
   settings.fixed_sigma = 0.5;
   expectStatedMisfit(calibrated(survey, settings), survey, settings);

@@ -32,7 +32,7 @@ const std::vector<ControlPoint>& control() {
 }
 
 /// Fewer points than usual: the time goes into them.
-CheckSettings quick() {
+CheckSettings quickCheck() {
   CheckSettings settings;
   settings.selection.point_budget = 100'000;
   settings.control = control();
@@ -45,7 +45,7 @@ CheckedBlock checked() {
   for (const test::SimulatedStrip& made : strips().strips)
     check.addInputStrip(test::cloudOf<PointT>(*made.strip.cloud), made.strip.frame, made.strip.id);
   check.setTrajectory(strips().flight);
-  check.setSettings(quick());
+  check.setSettings(quickCheck());
   check.check();
   EXPECT_FALSE(check.getAreas().empty());
   return check.getResult();
@@ -57,7 +57,7 @@ const CheckedBlock& fromClouds() {
 }
 
 /// Everything that does not depend on the clock, to the last bit.
-void expectEqual(const CheckedBlock& one, const CheckedBlock& other) {
+void expectEqualChecks(const CheckedBlock& one, const CheckedBlock& other) {
   EXPECT_EQ(textsOf(one.warnings), textsOf(other.warnings));
   EXPECT_EQ(one.roughness_limit, other.roughness_limit);
   ASSERT_EQ(one.strips.size(), other.strips.size());
@@ -98,16 +98,16 @@ TEST(DeliveryCheck, EqualsTheCheckOfPcdFilesToTheLastBit) {
   }
   SurveyReader survey(files, 0);
   DeliveryCheckOptions options;
-  options.settings = quick();
+  options.settings = quickCheck();
   const DeliveryCheckResult of_files = checkDelivery(survey, strips().flight, options);
   const CheckedBlock& of_clouds = fromClouds();
   ASSERT_FALSE(of_clouds.pairs.empty());
   EXPECT_GT(of_clouds.pairs.front().assessment.vertical.rms, 0.0);
-  expectEqual(of_files.block, of_clouds);
+  expectEqualChecks(of_files.block, of_clouds);
 }
 
 TEST(DeliveryCheck, TakesAPointTypeOfOnesOwn) {
-  expectEqual(checked<test::OwnPoint>(), fromClouds());  // without flags and scan angles
+  expectEqualChecks(checked<test::OwnPoint>(), fromClouds());  // without flags and scan angles
 }
 
 TEST(DeliveryCheck, NeedsNeitherTimesNorATrajectory) {
@@ -118,7 +118,7 @@ TEST(DeliveryCheck, NeedsNeitherTimesNorATrajectory) {
       if (p.number_of_returns == 1) cloud->emplace_back(p.x, p.y, p.z);
     check.addInputStrip(cloud, made.strip.frame, made.strip.id);
   }
-  check.setSettings(quick());
+  check.setSettings(quickCheck());
   check.check();
   ASSERT_FALSE(check.getResult().pairs.empty());
   // Without multiple returns the areas that are compared are others, of the same misfit.

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Eigen::Matrix3d about(int axis, double angle) {
+Eigen::Matrix3d rotationAbout(int axis, double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)).toRotationMatrix();
 }
 
@@ -40,9 +40,9 @@ struct Pose {
     const double share = (time - a.time) / (b.time - a.time);
     position = a.position + share * (b.position - a.position);
     const double turn = std::remainder(b.heading - a.heading, 2.0 * kPi);
-    rotation = about(2, -(a.heading + share * turn)) *
-               about(0, a.pitch + share * (b.pitch - a.pitch)) *
-               about(1, a.roll + share * (b.roll - a.roll));
+    rotation = rotationAbout(2, -(a.heading + share * turn)) *
+               rotationAbout(0, a.pitch + share * (b.pitch - a.pitch)) *
+               rotationAbout(1, a.roll + share * (b.roll - a.roll));
   }
 };
 
@@ -112,9 +112,10 @@ Eigen::Vector3d at(const PointChunk& points, std::size_t i) {
 Eigen::Vector3d georeferenced(const Pose& pose, const Eigen::Vector3d& measured,
                               const SystemVector& b) {
   const Eigen::Vector3d lever = b.head<3>();
-  const Eigen::Matrix3d boresight = about(2, b[indexOf(SystemParameter::boresight_heading)]) *
-                                    about(0, b[indexOf(SystemParameter::boresight_pitch)]) *
-                                    about(1, b[indexOf(SystemParameter::boresight_roll)]);
+  const Eigen::Matrix3d boresight =
+      rotationAbout(2, b[indexOf(SystemParameter::boresight_heading)]) *
+      rotationAbout(0, b[indexOf(SystemParameter::boresight_pitch)]) *
+      rotationAbout(1, b[indexOf(SystemParameter::boresight_roll)]);
   const Eigen::Vector3d beam = boresight.transpose() * (measured - lever);
   const double range = beam.norm() - b[indexOf(SystemParameter::range_bias)];
   const double beta =

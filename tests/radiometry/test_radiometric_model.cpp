@@ -15,7 +15,7 @@ namespace {
 const double kOrigin[] = {700000.0, 5660000.0};  // UTM: floats would not do
 
 /// Flies east along the origin's parallel at 1000 m, 50 m/s, from t = 0 to 20.
-std::shared_ptr<const Trajectory> flight() {
+std::shared_ptr<const Trajectory> flightEast() {
   std::vector<TrajectorySample> samples;
   for (int i = 0; i <= 200; ++i) {
     TrajectorySample sample;
@@ -79,7 +79,7 @@ TEST(RadiometricModel, RefusesWhatNoReceiverDoes) {
 }
 
 TEST(RadiometricEvaluator, RangeAndIncidenceByHand) {
-  const RadiometricEvaluator evaluator(flight(), RadiometricModel());
+  const RadiometricEvaluator evaluator(flightEast(), RadiometricModel());
   RadiometryCursor cursor;
   // At t = 10 the sensor is 500 m east; a point 300 m north of it, 400 m below (600 m up): a
   // triangle of 300, 400, 500. Level ground: cos = 0.8.
@@ -92,7 +92,7 @@ TEST(RadiometricEvaluator, RangeAndIncidenceByHand) {
 }
 
 TEST(RadiometricEvaluator, ASurfaceThatFacesTheSensorHasNoIncidence) {
-  const RadiometricEvaluator evaluator(flight(), RadiometricModel());
+  const RadiometricEvaluator evaluator(flightEast(), RadiometricModel());
   RadiometryCursor cursor;
   LocalSurface tilted = level();
   tilted.normal = Eigen::Vector3f(0.0F, -0.6F, 0.8F);  // towards the flight line
@@ -105,7 +105,7 @@ TEST(RadiometricEvaluator, ASurfaceThatFacesTheSensorHasNoIncidence) {
 TEST(RadiometricEvaluator, SteepIncidenceIsLimitedAndSaysSo) {
   RadiometricModel model;
   model.largest_incidence = 60.0;
-  const RadiometricEvaluator evaluator(flight(), model);
+  const RadiometricEvaluator evaluator(flightEast(), model);
   RadiometryCursor cursor;
   LocalSurface steep = level();
   steep.normal = Eigen::Vector3f(1.0F, 0.0F, 0.1F).normalized();  // 84 degrees from the beam
@@ -116,7 +116,7 @@ TEST(RadiometricEvaluator, SteepIncidenceIsLimitedAndSaysSo) {
 }
 
 TEST(RadiometricEvaluator, WithoutASurfaceOnlyRangeAndAtmosphere) {
-  const RadiometricEvaluator evaluator(flight(), RadiometricModel());
+  const RadiometricEvaluator evaluator(flightEast(), RadiometricModel());
   RadiometryCursor cursor;
   const LidarReturn point = pointAt(10.0, 500.0, 300.0, 600.0);
   auto found = evaluator.evaluate(point, LocalSurface(), cursor);
@@ -134,7 +134,7 @@ TEST(RadiometricEvaluator, WithoutASurfaceOnlyRangeAndAtmosphere) {
 }
 
 TEST(RadiometricEvaluator, WhatCannotBeServedStaysAsItIs) {
-  const RadiometricEvaluator evaluator(flight(), RadiometricModel());
+  const RadiometricEvaluator evaluator(flightEast(), RadiometricModel());
   RadiometryCursor cursor;
   const auto status = [&](const LidarReturn& point) {
     const PointRadiometry found = evaluator.evaluate(point, level(), cursor);

@@ -15,7 +15,7 @@ namespace {
 const Eigen::Vector3d kOrigin(700000.0, 5660000.0, 0.0);  // UTM: floats would not do
 
 /// A climbing curve of 20 s, 20 samples a second, with a gap of 5 s.
-std::shared_ptr<const Trajectory> flight() {
+std::shared_ptr<const Trajectory> climbingFlight() {
   std::vector<TrajectorySample> samples;
   for (int i = 0; i <= 400; ++i) {
     const double t = 0.05 * i;
@@ -28,7 +28,7 @@ std::shared_ptr<const Trajectory> flight() {
   return std::make_shared<const Trajectory>(samples);
 }
 
-struct Points {
+struct RangedPoints {
   std::vector<double> time, x, y, z;
   PointColumns columns(std::size_t from = 0) const {
     return {&time[from], &x[from], &y[from], &z[from]};
@@ -36,10 +36,10 @@ struct Points {
 };
 
 /// Ranges of 1 m to 20 km, some above the sensor; times in order, but for a tenth; some have none.
-Points randomPoints(std::size_t count) {
+RangedPoints randomPoints(std::size_t count) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  Points points;
+  RangedPoints points;
   for (std::size_t i = 0; i < count; ++i) {
     double time = 20.0 * static_cast<double>(i) / static_cast<double>(count);
     if (unit(random) < 0.1) time = 24.0 * unit(random) - 2.0;
@@ -58,8 +58,8 @@ Points randomPoints(std::size_t count) {
 /// rounding of its argument.
 void expectSame(const RadiometricModel& model) {
   constexpr std::size_t kCount = 20011;  // no multiple of any number of lanes
-  const Points points = randomPoints(kCount);
-  const RadiometricEvaluator evaluator(flight(), model);
+  const RangedPoints points = randomPoints(kCount);
+  const RadiometricEvaluator evaluator(climbingFlight(), model);
   std::vector<double> range(kCount), factor(kCount);
   RadiometryCursor cursor, other;
   const RangeCounts counts =
@@ -97,10 +97,10 @@ TEST(RangeColumns, AgreeWithSinglePoints) {
 
 TEST(RangeColumns, DoNotDependOnHowPointsAreDivided) {
   constexpr std::size_t kCount = 1000;
-  const Points points = randomPoints(kCount);
+  const RangedPoints points = randomPoints(kCount);
   RadiometricModel model;
   model.extinction_per_km = 0.1;
-  const RadiometricEvaluator evaluator(flight(), model);
+  const RadiometricEvaluator evaluator(climbingFlight(), model);
   std::vector<double> range(kCount), factor(kCount);
   RadiometryCursor cursor;
   evaluator.evaluateRanges(points.columns(), kCount, {range.data(), factor.data()}, cursor);
@@ -116,7 +116,7 @@ TEST(RangeColumns, DoNotDependOnHowPointsAreDivided) {
 TEST(RangeColumns, AnAirThatLetsNothingThroughStaysANumber) {
   RadiometricModel model;
   model.extinction_per_km = 50.0;  // exp(1900) has no double
-  const RadiometricEvaluator evaluator(flight(), model);
+  const RadiometricEvaluator evaluator(climbingFlight(), model);
   const double time = 1.0, x = kOrigin.x() + 50.0, y = kOrigin.y() + 1.0, z = 1.0;
   double range = 0.0, factor = 0.0;
   RadiometryCursor cursor;

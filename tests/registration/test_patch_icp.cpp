@@ -21,7 +21,7 @@ namespace {
 using PointT = pcl::PointNormal;
 using Cloud = pcl::PointCloud<PointT>;
 using Icp = pcl::IterativeClosestPoint<PointT, PointT, double>;
-using Estimation = CorrespondenceEstimationPointToPatch<PointT, PointT, double>;
+using PatchEstimation = CorrespondenceEstimationPointToPatch<PointT, PointT, double>;
 
 /// The scene, with at each point the mean normal of the triangles around it.
 Cloud::Ptr sceneWithNormals(int count, double noise, unsigned seed) {
@@ -98,7 +98,7 @@ class PatchIcp : public testing::Test {
   }
 
   Cloud::Ptr target_, source_;
-  pcl::shared_ptr<Estimation> estimation_{new Estimation};
+  pcl::shared_ptr<PatchEstimation> estimation_{new PatchEstimation};
   pcl::shared_ptr<CorrespondenceRejectorPatch> rejector_{new CorrespondenceRejectorPatch};
   Icp icp_;
 };
@@ -184,7 +184,7 @@ TEST_F(PatchIcp, HelperSetsTheThreePartsOfAnyRegistration) {
 /// Without the transformation estimation, PCL's point-to-point estimation leaves 0.50 m of 0.54 m.
 TEST_F(PatchIcp, PointToPointTransformationIsRefused) {
   Icp icp;
-  const pcl::shared_ptr<Estimation> estimation(new Estimation);
+  const pcl::shared_ptr<PatchEstimation> estimation(new PatchEstimation);
   rejector_->setMatchProvider(estimation);
   icp.setCorrespondenceEstimation(estimation);
   icp.addCorrespondenceRejector(rejector_);
@@ -202,7 +202,7 @@ TEST_F(PatchIcp, PointToPointTransformationIsRefused) {
 
 /// Searches for several clouds, or for one that was not moved, are no iterations.
 TEST_F(PatchIcp, SearchesWithoutMotionAreAllowed) {
-  Estimation estimation;
+  PatchEstimation estimation;
   pcl::Correspondences found;
   estimation.setInputTarget(target_);
   for (const Cloud::Ptr& cloud : {source_, source_, target_, Cloud::Ptr(new Cloud(*source_))}) {

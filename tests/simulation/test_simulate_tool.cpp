@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -15,11 +13,13 @@
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/las/las_file.h>
 
+#include "file_bytes.h"
 #include "test_files.h"
 
+namespace pcl_als {
 namespace {
 
-using namespace pcl_als;
+using test::readBytes;
 namespace fs = std::filesystem;
 
 struct ToolRun {
@@ -44,14 +44,9 @@ ToolRun tiny(const fs::path& folder, const std::string& more = {}) {
   return simulate("-output " + folder.string() + " -preset small -scale 0.3 -density 0.1 " + more);
 }
 
-std::string contentOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// A file without the header of LAS, which holds the day it was made.
 std::string pointsOf(const fs::path& path) {
-  return contentOf(path).substr(375);
+  return readBytes(path).substr(375);
 }
 
 PointChunk allPoints(const fs::path& path) {
@@ -113,8 +108,8 @@ TEST(SimulateTool, SameSeedSameBytesForAnyThreads) {
   ASSERT_EQ(tiny(one, "-noise realistic -seed 7 -threads 1").status, 0);
   ASSERT_EQ(tiny(two, "-noise realistic -seed 7 -threads 2 --quiet").status, 0);
   EXPECT_EQ(pointsOf(one / "strip4.las"), pointsOf(two / "strip4.las"));
-  EXPECT_EQ(contentOf(one / "truth.json"), contentOf(two / "truth.json"));
-  EXPECT_EQ(contentOf(one / "trajectory.csv"), contentOf(two / "trajectory.csv"));
+  EXPECT_EQ(readBytes(one / "truth.json"), readBytes(two / "truth.json"));
+  EXPECT_EQ(readBytes(one / "trajectory.csv"), readBytes(two / "trajectory.csv"));
   ASSERT_EQ(tiny(two, "-noise realistic -seed 8").status, 0);
   EXPECT_NE(pointsOf(one / "strip4.las"), pointsOf(two / "strip4.las"));
 }
@@ -163,13 +158,13 @@ TEST(SimulateTool, AdjustedTimeIsFlaggedAndShifted) {
   const double shift = 1540.0 * 604800.0 - 1e9;
   const PointChunk a = allPoints(week / "strip1.las"), b = allPoints(adjusted / "strip1.las");
   EXPECT_NEAR(b.gps_time[10] - a.gps_time[10], shift, 1e-7);  // a step of double at 7e7 s
-  EXPECT_EQ(contentOf(week / "trajectory.csv"), contentOf(adjusted / "trajectory.csv"));
+  EXPECT_EQ(readBytes(week / "trajectory.csv"), readBytes(adjusted / "trajectory.csv"));
 }
 
 TEST(SimulateTool, TruthStatesBiasesAndPairs) {
   const fs::path folder = test::scratch("tool_truth");
   ASSERT_EQ(tiny(folder, "-bias boresight_roll=60,range_bias=0.25").status, 0);
-  const std::string truth = contentOf(folder / "truth.json");
+  const std::string truth = readBytes(folder / "truth.json");
   EXPECT_NE(truth.find("\"boresight_roll_arcsec\": 60.0"), std::string::npos);
   EXPECT_NE(truth.find("\"boresight_pitch_arcsec\": -30.0"), std::string::npos);
   EXPECT_NE(truth.find("\"range_bias_m\": 0.25"), std::string::npos);
@@ -182,7 +177,7 @@ TEST(SimulateTool, TruthStatesErrorsScannerAndSessions) {
                            "-scanner dual -sessions 2 -error time_offset=1.5 "
                            "session2:offset_z=0.08,channel1:boresight_roll=60 -ins tactical");
   ASSERT_EQ(run.status, 0) << run.output;
-  const std::string truth = contentOf(folder / "truth.json");
+  const std::string truth = readBytes(folder / "truth.json");
   for (const char* text : {"\"name\": \"time_offset\"", "\"value\": 1.5", "\"unit\": \"ms\"",
                            "\"of\": \"session 2\"", "\"of\": \"channel 1\"", "\"type\": \"dual\"",
                            "\"session\": 2", "\"heading_arcsec\": 126.0"})
@@ -260,3 +255,4 @@ TEST(SimulateTool, HelpNamesEveryOption) {
 }
 
 }  // namespace
+}  // namespace pcl_als

@@ -35,8 +35,8 @@ Choice atAngle(double degrees) {  // right of flight is positive
   return [degrees](const SimulatedPoint& p) { return std::abs(p.scan_angle - degrees) < 0.5; };
 }
 
-Eigen::Vector3d meanEffect(const SimulationOptions& options, const Choice& chosen,
-                           std::size_t strip = 0) {
+Eigen::Vector3d meanEffectOf(const SimulationOptions& options, const Choice& chosen,
+                             std::size_t strip = 0) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   std::size_t count = 0;
   for (const SimulatedPoint& p : Simulator(options).strip(strip)) {
@@ -50,7 +50,7 @@ Eigen::Vector3d meanEffect(const SimulationOptions& options, const Choice& chose
 
 /// Two percent of the largest component: one degree of averaging, 2 m of height motion and 0.6
 /// degrees of course, as in the tests of the system parameters.
-void expectEffect(const Eigen::Vector3d& effect, double east, double north, double up) {
+void expectComponents(const Eigen::Vector3d& effect, double east, double north, double up) {
   const double tolerance = 0.02 * std::max({std::abs(east), std::abs(north), std::abs(up)});
   EXPECT_NEAR(effect.x(), east, tolerance);
   EXPECT_NEAR(effect.y(), north, tolerance);
@@ -60,7 +60,7 @@ void expectEffect(const Eigen::Vector3d& effect, double east, double north, doub
 TEST(ErrorSources, TimeOffsetShiftsAlongTheFlightAndTheTags) {
   // 10 ms late at 60 m/s (which varies by 5 %): 0.6 m ahead.
   const SimulationOptions options = withErrors("time_offset=10");
-  const Eigen::Vector3d effect = meanEffect(options, atAngle(0.0));
+  const Eigen::Vector3d effect = meanEffectOf(options, atAngle(0.0));
   EXPECT_NEAR(effect.y(), 0.6, 0.03);
   EXPECT_NEAR(effect.x(), 0.0, 0.01);
   const auto late = Simulator(options).strip(0), exact = Simulator(overPlane()).strip(0);
@@ -102,21 +102,21 @@ TEST(ErrorSources, MirrorTorsionChangesSignWithTheScanDirection) {
       return std::abs(p.scan_angle) < 0.5 && ((p.flags & 16) != 0) == right;
     };
   };
-  expectEffect(meanEffect(options, moving(true)), -0.261799, 0.0, 0.0);
-  expectEffect(meanEffect(options, moving(false)), 0.261799, 0.0, 0.0);
+  expectComponents(meanEffectOf(options, moving(true)), -0.261799, 0.0, 0.0);
+  expectComponents(meanEffectOf(options, moving(false)), 0.261799, 0.0, 0.0);
 }
 
 // At 19 degrees right x = 185.937, z = -540, b = -0.331613 rad; dX = z d_b, dZ = -x d_b.
 TEST(ErrorSources, EncoderQuadratic) {  // d_b = 0.01 * 0.1099669
   const SimulationOptions options = withErrors("encoder_quadratic=0.01");
-  expectEffect(meanEffect(options, atAngle(19.0)), -0.593821, 0.0, -0.204470);
-  expectEffect(meanEffect(options, atAngle(-19.0)), -0.593821, 0.0, 0.204470);
+  expectComponents(meanEffectOf(options, atAngle(19.0)), -0.593821, 0.0, -0.204470);
+  expectComponents(meanEffectOf(options, atAngle(-19.0)), -0.593821, 0.0, 0.204470);
 }
 
 TEST(ErrorSources, EncoderCubic) {  // d_b = -0.01 * 0.0364664 on the right
   const SimulationOptions options = withErrors("encoder_cubic=0.01");
-  expectEffect(meanEffect(options, atAngle(19.0)), 0.196919, 0.0, 0.067805);
-  expectEffect(meanEffect(options, atAngle(-19.0)), -0.196919, 0.0, 0.067805);
+  expectComponents(meanEffectOf(options, atAngle(19.0)), 0.196919, 0.0, 0.067805);
+  expectComponents(meanEffectOf(options, atAngle(-19.0)), -0.196919, 0.0, 0.067805);
 }
 
 TEST(ErrorSources, DeflectionScaleWidensTheCone) {
@@ -130,16 +130,17 @@ TEST(ErrorSources, DeflectionScaleWidensTheCone) {
   const auto behind = [](const SimulatedPoint& p) {
     return std::abs(p.scan_angle) < 1.0 && (p.flags & 16) == 0;
   };
-  expectEffect(meanEffect(options, ahead), 0.0, 0.188496, 0.068607);
-  expectEffect(meanEffect(options, behind), 0.0, -0.188496, 0.068607);
-  expectEffect(meanEffect(options, [](const SimulatedPoint& p) { return p.scan_angle > 19.9; }),
-               0.188496, 0.0, 0.068607);
+  expectComponents(meanEffectOf(options, ahead), 0.0, 0.188496, 0.068607);
+  expectComponents(meanEffectOf(options, behind), 0.0, -0.188496, 0.068607);
+  expectComponents(
+      meanEffectOf(options, [](const SimulatedPoint& p) { return p.scan_angle > 19.9; }), 0.188496,
+      0.0, 0.068607);
 }
 
 TEST(ErrorSources, RangeScale) {  // d_r = 0.54 m at nadir, 0.571115 m at 19 degrees
   const SimulationOptions options = withErrors("range_scale=0.001");
-  expectEffect(meanEffect(options, atAngle(0.0)), 0.0, 0.0, -0.54);
-  expectEffect(meanEffect(options, atAngle(19.0)), 0.185937, 0.0, -0.54);
+  expectComponents(meanEffectOf(options, atAngle(0.0)), 0.0, 0.0, -0.54);
+  expectComponents(meanEffectOf(options, atAngle(19.0)), 0.185937, 0.0, -0.54);
 }
 
 TEST(ErrorSources, RangeWalkFollowsTheIntensity) {
@@ -160,8 +161,8 @@ TEST(ErrorSources, RangeWalkFollowsTheIntensity) {
 TEST(ErrorSources, RangeIncidenceIsAShareOfTheStretchedPulse) {
   // 571.115 m * 0.33e-3 * tan 19 = 0.0648945 m, half of it along the beam.
   const SimulationOptions options = withErrors("range_incidence=0.5");
-  expectEffect(meanEffect(options, atAngle(19.0)), 0.010564, 0.0, -0.030679);
-  EXPECT_LT(meanEffect(options, atAngle(0.0)).norm(), 1e-3);
+  expectComponents(meanEffectOf(options, atAngle(19.0)), 0.010564, 0.0, -0.030679);
+  EXPECT_LT(meanEffectOf(options, atAngle(0.0)).norm(), 1e-3);
 }
 
 TEST(ErrorSources, ChannelsHaveTheirOwnParameters) {
@@ -173,8 +174,9 @@ TEST(ErrorSources, ChannelsHaveTheirOwnParameters) {
       return p.channel == channel && std::abs(p.scan_angle) < 0.5;
     };
   };
-  EXPECT_LT(meanEffect(options, of(0)).norm(), 1e-9);
-  expectEffect(meanEffect(options, of(1)), -0.785398, 0.0, -0.1);  // z df = -540 * 1.454441e-3
+  EXPECT_LT(meanEffectOf(options, of(0)).norm(), 1e-9);
+  expectComponents(meanEffectOf(options, of(1)), -0.785398, 0.0,
+                   -0.1);  // z df = -540 * 1.454441e-3
 }
 
 TEST(ErrorSources, ASessionIsShiftedWithItsTrajectory) {
@@ -183,8 +185,8 @@ TEST(ErrorSources, ASessionIsShiftedWithItsTrajectory) {
   options.setSessions(2);
   options.errors.add("session2:offset_z=0.08,session2:offset_x=-0.5,session2:range_bias=0.02");
   const auto all = [](const SimulatedPoint& p) { return std::abs(p.scan_angle) < 1.0; };
-  EXPECT_LT(meanEffect(options, all, 0).norm(), 1e-9);
-  expectEffect(meanEffect(options, all, 1), -0.5, 0.0, 0.06);
+  EXPECT_LT(meanEffectOf(options, all, 0).norm(), 1e-9);
+  expectComponents(meanEffectOf(options, all, 1), -0.5, 0.0, 0.06);
   const Simulator simulator(options);
   const auto written = simulator.trajectory(), exact = simulator.trueTrajectory();
   EXPECT_LT((written.front().position - exact.front().position).norm(), 1e-9);

@@ -73,7 +73,7 @@ TEST(Simulator, ABiasTakesThePointsOffTheScene) {
 }
 
 /// Mean displacement of the points within 2 degrees of the right (+1), left (-1) edge or of nadir.
-Eigen::Vector3d meanEffect(const SimulationOptions& options, int side) {
+Eigen::Vector3d meanEffectAtSide(const SimulationOptions& options, int side) {
   const double wanted = side * 19.0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   std::size_t count = 0;
@@ -89,13 +89,13 @@ Eigen::Vector3d meanEffect(const SimulationOptions& options, int side) {
 // At 19 degrees right of a line at 540 m: x = 540 tan 19 = 185.937, z = -540, b = -0.331613 rad.
 // One degree of averaging, 2 m of height motion and 0.6 degrees of course allow two percent and,
 // for what leaks through the course, 2 % of the largest component.
-void expectEffect(SystemParameter parameter, double value, int side, double right, double forward,
-                  double up) {
+void expectBiasEffect(SystemParameter parameter, double value, int side, double right,
+                      double forward, double up) {
   for (const bool north : {true, false}) {
     SimulationOptions options = overPlane();
     if (!north) options.lines = {lineAlong(1, {-75.0, 0.0}, {75.0, 0.0}, 540.0, 1.0)};
     setBias(options, parameter, value);
-    const Eigen::Vector3d effect = meanEffect(options, side);
+    const Eigen::Vector3d effect = meanEffectAtSide(options, side);
     const double tolerance = 0.02 * std::max({std::abs(right), std::abs(forward), std::abs(up)});
     // Flying north right is east; flying east right is south and forward is east.
     EXPECT_NEAR(north ? effect.x() : -effect.y(), right, tolerance);
@@ -105,39 +105,39 @@ void expectEffect(SystemParameter parameter, double value, int side, double righ
 }
 
 TEST(Simulator, LeverArmX) {
-  expectEffect(SystemParameter::lever_arm_x, 0.05, 0, 0.05, 0.0, 0.0);
+  expectBiasEffect(SystemParameter::lever_arm_x, 0.05, 0, 0.05, 0.0, 0.0);
 }
 
 TEST(Simulator, LeverArmY) {
-  expectEffect(SystemParameter::lever_arm_y, 0.05, 0, 0.0, 0.05, 0.0);
+  expectBiasEffect(SystemParameter::lever_arm_y, 0.05, 0, 0.0, 0.05, 0.0);
 }
 
 TEST(Simulator, LeverArmZ) {
-  expectEffect(SystemParameter::lever_arm_z, 0.05, 0, 0.0, 0.0, 0.05);
+  expectBiasEffect(SystemParameter::lever_arm_z, 0.05, 0, 0.0, 0.0, 0.05);
 }
 
 TEST(Simulator, BoresightPitch) {  // -z dw = 540 * 1.454441e-3
-  expectEffect(SystemParameter::boresight_pitch, 300.0, 0, 0.0, 0.785398, 0.0);
+  expectBiasEffect(SystemParameter::boresight_pitch, 300.0, 0, 0.0, 0.785398, 0.0);
 }
 
 TEST(Simulator, BoresightRoll) {  // z df = -540 df; -x df = -185.937 df
-  expectEffect(SystemParameter::boresight_roll, 300.0, 1, -0.785398, 0.0, -0.270434);
-  expectEffect(SystemParameter::boresight_roll, 300.0, -1, -0.785398, 0.0, 0.270434);
+  expectBiasEffect(SystemParameter::boresight_roll, 300.0, 1, -0.785398, 0.0, -0.270434);
+  expectBiasEffect(SystemParameter::boresight_roll, 300.0, -1, -0.785398, 0.0, 0.270434);
 }
 
 TEST(Simulator, BoresightHeading) {  // x dk = 185.937 * 1.454441e-3
-  expectEffect(SystemParameter::boresight_heading, 300.0, 1, 0.0, 0.270434, 0.0);
-  expectEffect(SystemParameter::boresight_heading, 300.0, -1, 0.0, -0.270434, 0.0);
+  expectBiasEffect(SystemParameter::boresight_heading, 300.0, 1, 0.0, 0.270434, 0.0);
+  expectBiasEffect(SystemParameter::boresight_heading, 300.0, -1, 0.0, -0.270434, 0.0);
 }
 
 TEST(Simulator, RangeBias) {  // -sin b dr = 0.325568 dr; -cos b dr = -0.945519 dr
-  expectEffect(SystemParameter::range_bias, 0.12, 1, 0.039068, 0.0, -0.113462);
-  expectEffect(SystemParameter::range_bias, 0.12, 0, 0.0, 0.0, -0.12);
+  expectBiasEffect(SystemParameter::range_bias, 0.12, 1, 0.039068, 0.0, -0.113462);
+  expectBiasEffect(SystemParameter::range_bias, 0.12, 0, 0.0, 0.0, -0.12);
 }
 
 TEST(Simulator, ScanAngleScale) {  // z b dS = 540 * 0.331613 dS; -x b dS = 185.937 * 0.331613 dS
-  expectEffect(SystemParameter::scan_angle_scale, 1e-3, 1, 0.179071, 0.0, 0.061659);
-  expectEffect(SystemParameter::scan_angle_scale, 1e-3, -1, -0.179071, 0.0, 0.061659);
+  expectBiasEffect(SystemParameter::scan_angle_scale, 1e-3, 1, 0.179071, 0.0, 0.061659);
+  expectBiasEffect(SystemParameter::scan_angle_scale, 1e-3, -1, -0.179071, 0.0, 0.061659);
 }
 
 TEST(Simulator, TrueMountingDoesNotShowWhenItIsKnown) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -18,6 +19,14 @@ inline std::string readBytes(const std::filesystem::path& path) {
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();
+}
+
+/// The value that begins at a position.
+template <typename T>
+T valueAt(const std::string& bytes, std::size_t position) {
+  T value;
+  std::memcpy(&value, bytes.data() + position, sizeof value);
+  return value;
 }
 
 }  // namespace pcl_als::test

@@ -16,7 +16,7 @@ namespace {
 using Names = std::vector<std::string>;
 
 /// Three lines of 8 s that follow each other with gaps; ids as given.
-std::vector<SurveyedFile> block(std::uint16_t a, std::uint16_t b, std::uint16_t c) {
+std::vector<SurveyedFile> threeLines(std::uint16_t a, std::uint16_t b, std::uint16_t c) {
   PointChunk chunk;
   test::scan(chunk, a, test::straight({0.0, 0.0}, 0.0, 100.0), 100.0, 108.0);
   test::scan(chunk, b, test::straight({100.0, 480.0}, 180.0, 200.0), 200.0, 208.0);
@@ -44,7 +44,7 @@ const Trajectory& flight(double from, double to) {
 }
 
 TEST(StripAssignment, ChoosesStripsByName) {
-  const auto files = block(1, 2, 3);
+  const auto files = threeLines(1, 2, 3);
   EXPECT_EQ(StripAssignment(files, {}, {}).names(), (Names{"1", "2", "3"}));
   EXPECT_EQ(StripAssignment(files, {{"3", "1"}, {}}, {}).names(), (Names{"1", "3"}));
   const StripAssignment without(files, {{}, {"2"}}, {});
@@ -57,7 +57,7 @@ TEST(StripAssignment, ChoosesStripsByName) {
 }
 
 TEST(StripAssignment, DividesAStripThatIsCertainlySeveralLines) {
-  const auto files = block(4, 4, 4);
+  const auto files = threeLines(4, 4, 4);
   EXPECT_EQ(StripAssignment(files, {}, {}).names(), (Names{"4"}));
   StripChoice choice;
   choice.divide_lines = true;
@@ -75,7 +75,7 @@ TEST(StripAssignment, DividesAStripThatIsCertainlySeveralLines) {
   // Strips with a line each are left as they are.
   choice = {};
   choice.divide_lines = true;
-  const auto strips = block(1, 2, 3);
+  const auto strips = threeLines(1, 2, 3);
   const StripAssignment single(strips, choice, {});
   EXPECT_EQ(single.names(), (Names{"1", "2", "3"}));
   EXPECT_TRUE(single.divisions().empty());
@@ -110,7 +110,7 @@ TEST(StripAssignment, SplitsThroughTheEndOfAWeekAsAtOtherTimes) {
 }
 
 TEST(StripAssignment, AnUnknownNameIsRefusedWithThoseThereAre) {
-  const auto files = block(1, 2, 3);
+  const auto files = threeLines(1, 2, 3);
   EXPECT_EQ(test::messageOf<UsageError>([&] {
               StripAssignment(files, {{"7"}, {}}, {});
             }),
@@ -122,7 +122,7 @@ TEST(StripAssignment, AnUnknownNameIsRefusedWithThoseThereAre) {
 }
 
 TEST(StripAssignment, PointsOutsideTheTrajectoryAreExcludedAndTheRestIsUsed) {
-  const auto files = block(1, 2, 3);
+  const auto files = threeLines(1, 2, 3);
   FlownTimes times;
   times.trajectory = &flight(100.5, 305.0);
   const StripAssignment arrangement(files, {}, times);
@@ -139,7 +139,7 @@ TEST(StripAssignment, PointsOutsideTheTrajectoryAreExcludedAndTheRestIsUsed) {
 }
 
 TEST(StripAssignment, AGapOfTheTrajectoryCostsItsPointsOnly) {
-  const auto files = block(1, 2, 3);
+  const auto files = threeLines(1, 2, 3);
   std::vector<TrajectorySample> samples;
   for (int i = 0; i <= 3000; ++i) {
     const double time = 90.0 + 0.1 * i;
@@ -161,7 +161,7 @@ TEST(StripAssignment, AGapOfTheTrajectoryCostsItsPointsOnly) {
 }
 
 TEST(StripAssignment, AStripThatIsHardlyCoveredIsExcludedByName) {
-  const auto files = block(1, 2, 3);
+  const auto files = threeLines(1, 2, 3);
   FlownTimes times;
   times.trajectory = &flight(90.0, 300.3);
   const StripAssignment arrangement(files, {}, times);
@@ -201,7 +201,7 @@ TEST(StripAssignment, FilesWithoutAnyTimeAreStripsUnlessATrajectoryIsNeeded) {
 }
 
 TEST(StripAssignment, SplitsPointsWithoutSourceIdIntoLines) {
-  const auto files = block(0, 0, 0);
+  const auto files = threeLines(0, 0, 0);
   EXPECT_EQ(StripAssignment(files, {}, {}).names(), Names{"block"});
   const StripAssignment arrangement(files, {{}, {}, true}, {});
   EXPECT_EQ(arrangement.names(), (Names{"line1", "line2", "line3"}));
@@ -213,7 +213,7 @@ TEST(StripAssignment, SplitsPointsWithoutSourceIdIntoLines) {
 }
 
 TEST(StripAssignment, SplitPartsASourceIdOnlyWhereItHoldsSeveralLines) {
-  EXPECT_EQ(StripAssignment(block(7, 7, 8), {{}, {}, true}, {}).names(),
+  EXPECT_EQ(StripAssignment(threeLines(7, 7, 8), {{}, {}, true}, {}).names(),
             (Names{"7.1", "7.2", "8"}));
 }
 

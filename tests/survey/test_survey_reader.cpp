@@ -70,13 +70,13 @@ Heights heightsOf(const SurveyReader& survey, const SurveyReader::Reading& readi
 }
 
 /// Strips 1 and 2 in a.las, 3 in b.las, 2 and 4 in c.las.
-std::vector<std::string> block(const fs::path& folder) {
+std::vector<std::string> threeFiles(const fs::path& folder) {
   return {write(folder / "a.las", points({1, 2}, 0.0)), write(folder / "b.las", points({3}, 100.0)),
           write(folder / "c.las", points({2, 4}, 200.0))};
 }
 
 TEST(SurveyReader, GivesThePointsOfAStripInTheirOrderForAnyNumberOfThreads) {
-  const auto files = block(test::scratch("reader_order"));
+  const auto files = threeFiles(test::scratch("reader_order"));
   const SurveyReader survey(files, 1);
   EXPECT_EQ(survey.strips(), (Names{"1", "2", "3", "4"}));
   const Heights heights = heightsOf(survey);
@@ -91,7 +91,7 @@ TEST(SurveyReader, GivesThePointsOfAStripInTheirOrderForAnyNumberOfThreads) {
 }
 
 TEST(SurveyReader, WithOneThreadTheFilesComeInTheirOrder) {
-  const SurveyReader survey(block(test::scratch("reader_file_order")), 4);
+  const SurveyReader survey(threeFiles(test::scratch("reader_file_order")), 4);
   SurveyReader::Reading reading;
   reading.threads = 1;
   std::vector<std::size_t> files;
@@ -101,7 +101,7 @@ TEST(SurveyReader, WithOneThreadTheFilesComeInTheirOrder) {
 }
 
 TEST(SurveyReader, ReadsOneStripOrSomeFilesAlone) {
-  const SurveyReader survey(block(test::scratch("reader_parts")), 2);
+  const SurveyReader survey(threeFiles(test::scratch("reader_parts")), 2);
   SurveyReader::Reading reading;
   reading.strip = 1;
   const Heights all = heightsOf(survey), strip = heightsOf(survey, reading);
@@ -117,7 +117,7 @@ TEST(SurveyReader, ReadsOneStripOrSomeFilesAlone) {
 }
 
 TEST(SurveyReader, CountsWhatItLeavesOut) {
-  SurveyReader survey(block(test::scratch("reader_left_out")), 2);
+  SurveyReader survey(threeFiles(test::scratch("reader_left_out")), 2);
   survey.choose({{}, {"2"}}, {});
   EXPECT_EQ(survey.strips(), (Names{"1", "3", "4"}));
   const SurveyReader::Contents contents = survey.measure();
@@ -137,7 +137,7 @@ TEST(SurveyReader, CountsWhatItLeavesOut) {
 }
 
 TEST(SurveyReader, WholeFilesAreStripsOfTheirOwn) {
-  const auto files = block(test::scratch("reader_whole"));
+  const auto files = threeFiles(test::scratch("reader_whole"));
   std::vector<PointFileInfo> infos;
   for (const std::string& file : files) infos.push_back(PointReader::open(file)->info());
   const SurveyReader survey = SurveyReader::ofWholeFiles(infos, 3);
@@ -172,7 +172,7 @@ TEST(SurveyReader, ReadsAnExtraField) {
 }
 
 TEST(SurveyReader, CanBeMoved) {
-  auto first = std::make_unique<SurveyReader>(block(test::scratch("reader_moved")), 1);
+  auto first = std::make_unique<SurveyReader>(threeFiles(test::scratch("reader_moved")), 1);
   const Heights heights = heightsOf(*first);
   SurveyReader moved(std::move(*first));
   first.reset();

@@ -7,12 +7,18 @@
 #include <cstdint>
 #include <functional>
 #include <random>
+#include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/trajectory/trajectory_reconstruction.h>
 
 namespace pcl_als::test {
+
+using Points = std::vector<LidarReturn>;
 
 /// Points of a linear scanner over a plane at height 0 with trees: each pulse's returns lie on a
 /// line through the sensor, written without any equation of the reconstruction.
@@ -75,6 +81,29 @@ struct RayFlight {
 inline Eigen::Vector3d wavyPath(double time) {
   return {3.0 * std::sin(0.4 * time), 60.0 * time + 0.5 * std::sin(0.7 * time),
           1000.0 + 1.5 * std::cos(0.3 * time)};
+}
+
+inline RayFlight wavy() {
+  RayFlight flight;
+  flight.path = wavyPath;
+  return flight;
+}
+
+/// What is reconstructed of strips "1", "2" …
+inline std::vector<ReconstructedPath> pathsOf(const std::vector<Points>& strips) {
+  TrajectoryReconstruction reconstruction;
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    const int strip = reconstruction.addStrip(std::to_string(i + 1));
+    reconstruction.add(strip, strips[i].data(), strips[i].size());
+  }
+  return reconstruction.reconstruct();
+}
+
+/// The path of one strip.
+inline ReconstructedPath pathOf(const Points& strip) {
+  const std::vector<ReconstructedPath> paths = pathsOf({strip});
+  EXPECT_EQ(paths.size(), 1U);
+  return paths.front();
 }
 
 }  // namespace pcl_als::test

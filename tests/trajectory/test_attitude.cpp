@@ -41,7 +41,7 @@ SensorPose tilted() {
   return pose;
 }
 
-SystemVector biases(double factor) {
+SystemVector scaledBiases(double factor) {
   SystemVector values;
   values << 1.0, -0.8, 0.5, 8.7e-3, -8.7e-3, 6e-3, 1.0, 4e-3;
   return factor * values;
@@ -61,9 +61,9 @@ TEST(Attitude, CorrectedUndoesEquation1ForLargeBiases) {
   const SensorPose pose = tilted();
   for (const double encoder : {-0.6, -0.1, 0.0, 0.35}) {
     const Eigen::Vector3d truth = equation1(pose, 1100.0, encoder, SystemVector::Zero());
-    const Eigen::Vector3d biased = equation1(pose, 1100.0, encoder, biases(1.0));
+    const Eigen::Vector3d biased = equation1(pose, 1100.0, encoder, scaledBiases(1.0));
     ASSERT_GT((biased - truth).norm(), 5.0);
-    EXPECT_LT((corrected(pose, biased, biases(1.0)) - truth).norm(), 1e-9);
+    EXPECT_LT((corrected(pose, biased, scaledBiases(1.0)) - truth).norm(), 1e-9);
   }
 }
 
@@ -93,14 +93,14 @@ std::vector<TrajectorySample> restless(double step) {
   return samples;
 }
 
-Trajectory::Options withAttitude() {
+Trajectory::Options attitudeUsed() {
   Trajectory::Options options;
   options.use_attitude = true;
   return options;
 }
 
 TEST(Attitude, IsInterpolatedBetweenSamples) {
-  const Trajectory fine(restless(0.005), withAttitude()), coarse(restless(0.5), withAttitude());
+  const Trajectory fine(restless(0.005), attitudeUsed()), coarse(restless(0.5), attitudeUsed());
   ASSERT_TRUE(fine.hasAttitude());
   std::size_t cursor = 0, other = 0;
   for (double time = 1.0; time < 19.0; time += 0.317) {
@@ -126,7 +126,7 @@ TEST(Attitude, IsInterpolatedBetweenSamples) {
 }
 
 TEST(Attitude, PartsOfASpanMeet) {
-  const Trajectory coarse(restless(0.5), withAttitude());
+  const Trajectory coarse(restless(0.5), attitudeUsed());
   std::size_t cursor = 0;
   FlightSpan span, next;
   ASSERT_TRUE(coarse.spanAt(3.51, span, cursor));
@@ -141,7 +141,7 @@ TEST(Attitude, NeedsItInEverySample) {
   auto samples = restless(0.1);
   samples[7].pitch = std::nan("");
   EXPECT_FALSE(Trajectory(samples).samplesHaveAttitude());
-  EXPECT_THROW(Trajectory(samples, withAttitude()), InputError);
+  EXPECT_THROW(Trajectory(samples, attitudeUsed()), InputError);
 }
 
 struct Pulse {
@@ -171,7 +171,7 @@ std::vector<Pulse> pulses(const Trajectory& flight, double out_of_plane) {
 }
 
 TEST(AttitudeRecovery, FindsPitchAndCrab) {
-  const Trajectory truth(restless(0.005), withAttitude());
+  const Trajectory truth(restless(0.005), attitudeUsed());
   const auto flight = std::make_shared<const Trajectory>(restless(0.005));
   AttitudeRecovery even(flight), odd(flight);
   std::size_t count = 0;
@@ -199,7 +199,7 @@ TEST(AttitudeRecovery, FindsPitchAndCrab) {
 }
 
 TEST(AttitudeRecovery, LeavesAScannerWithoutAPlaneAlone) {
-  const Trajectory truth(restless(0.005), withAttitude());
+  const Trajectory truth(restless(0.005), attitudeUsed());
   const auto flight = std::make_shared<const Trajectory>(restless(0.005));
   AttitudeRecovery recovery(flight);
   for (const Pulse& pulse : pulses(truth, 0.1)) recovery.add(pulse.time, pulse.point);
@@ -210,7 +210,7 @@ TEST(AttitudeRecovery, LeavesAScannerWithoutAPlaneAlone) {
 }
 
 TEST(AttitudeRecovery, TellsTheRangeOfEachPass) {
-  const Trajectory truth(restless(0.005), withAttitude());
+  const Trajectory truth(restless(0.005), attitudeUsed());
   const auto flight = std::make_shared<const Trajectory>(restless(0.005));
   AttitudeRecovery recovery(flight);
   for (const Pulse& pulse : pulses(truth, 0.0)) recovery.add(pulse.time, pulse.point);
@@ -224,7 +224,7 @@ TEST(AttitudeRecovery, TellsTheRangeOfEachPass) {
 
 /// Where only a few points of a second were kept, the angles are those of the seconds around it.
 TEST(AttitudeRecovery, BridgesTimesWithFewPoints) {
-  const Trajectory truth(restless(0.005), withAttitude());
+  const Trajectory truth(restless(0.005), attitudeUsed());
   const auto flight = std::make_shared<const Trajectory>(restless(0.005));
   AttitudeRecovery recovery(flight);
   for (const Pulse& pulse : pulses(truth, 0.0)) {

@@ -20,7 +20,7 @@ using test::circling;
 using test::sampled;
 using test::straight;
 
-struct Points {
+struct EffectPoints {
   std::vector<double> time, x, y, z, effect_x, effect_y, effect_z;
 
   void add(double t, const Eigen::Vector3d& p) {
@@ -46,10 +46,10 @@ std::shared_ptr<const Trajectory> circle() {
 }
 
 /// A swath under the circle, in order of time.
-Points swath(std::size_t count) {
+EffectPoints swath(std::size_t count) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> spread(-600.0, 600.0), height(-30.0, 30.0);
-  Points points;
+  EffectPoints points;
   for (std::size_t i = 0; i < count; ++i) {
     const double time = 60.0 * static_cast<double>(i) / static_cast<double>(count);
     Eigen::Vector3d point = circling(time) + Eigen::Vector3d(spread(random), spread(random), 0.0);
@@ -69,7 +69,7 @@ Eigen::Vector3d reference(const Trajectory& trajectory, double time, const Eigen
 
 TEST(BiasEvaluator, EqualsTheDesignBlockToFirstOrder) {
   const auto trajectory = circle();
-  Points points = swath(200);
+  EffectPoints points = swath(200);
   const BiasEvaluator evaluator(trajectory, allBiases());
   CoverageCount coverage;
   evaluator.effect(points.columns(), points.time.size(), points.effects(), coverage);
@@ -87,7 +87,7 @@ TEST(BiasEvaluator, EqualsTheDesignBlockToFirstOrder) {
 
 TEST(BiasEvaluator, EqualsTheScalarFormForEveryParameterAlone) {
   const auto trajectory = circle();
-  Points points = swath(1000);
+  EffectPoints points = swath(1000);
   for (int i = 0; i < kSystemParameterCount; ++i) {
     const SystemVector biases = allBiases().cwiseProduct(SystemVector::Unit(i));
     const BiasEvaluator evaluator(trajectory, biases);
@@ -106,7 +106,7 @@ TEST(BiasEvaluator, EqualsTheScalarFormForEveryParameterAlone) {
 TEST(BiasEvaluator, EqualsTheScalarFormInSeveralPlanes) {
   const auto trajectory = std::make_shared<const Trajectory>(
       circle()->withScanPlanes({{0.24, 0.970773, 0.0}, {-0.24, 0.970773, 0.0}}));
-  Points points = swath(1000);
+  EffectPoints points = swath(1000);
   const BiasEvaluator evaluator(trajectory, allBiases()), in_one_plane(circle(), allBiases());
   CoverageCount coverage;
   in_one_plane.effect(points.columns(), points.time.size(), points.effects(), coverage);
@@ -125,7 +125,7 @@ TEST(BiasEvaluator, EqualsTheScalarFormInSeveralPlanes) {
 TEST(BiasEvaluator, ScanAngleIsRightAllAroundTheSensor) {
   const auto trajectory = std::make_shared<Trajectory>(sampled(straight(0), 0.0, 10.0, 1.0));
   const SystemVector biases = allBiases().cwiseProduct(SystemVector::Unit(7));
-  Points points;
+  EffectPoints points;
   for (int degree = -180; degree < 180; ++degree) {
     const double angle = degree * kRadiansPerDegree;
     points.add(5.0, {1000.0 * std::sin(angle), 300.0, 1000.0 - 1000.0 * std::cos(angle)});
@@ -142,11 +142,11 @@ TEST(BiasEvaluator, ScanAngleIsRightAllAroundTheSensor) {
 
 TEST(BiasEvaluator, OrderOfPointsDoesNotChangeABit) {
   const BiasEvaluator evaluator(circle(), allBiases());
-  Points sorted = swath(5000);
+  EffectPoints sorted = swath(5000);
   std::vector<std::size_t> order(sorted.time.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::shuffle(order.begin(), order.end(), std::mt19937(5));
-  Points shuffled;
+  EffectPoints shuffled;
   for (const std::size_t i : order) shuffled.add(sorted.time[i], sorted.position(i));
   CoverageCount coverage;
   evaluator.effect(sorted.columns(), order.size(), sorted.effects(), coverage);
@@ -158,10 +158,10 @@ TEST(BiasEvaluator, OrderOfPointsDoesNotChangeABit) {
 
 TEST(BiasEvaluator, InverseLeadsBackToTheBiasedPoint) {
   const BiasEvaluator evaluator(circle(), 10.0 * allBiases());
-  Points biased = swath(3000);
+  EffectPoints biased = swath(3000);
   CoverageCount coverage;
   evaluator.effect(biased.columns(), biased.time.size(), biased.effects(), coverage);
-  Points corrected;
+  EffectPoints corrected;
   double largest = 0.0;
   for (std::size_t k = 0; k < biased.time.size(); ++k) {
     corrected.add(biased.time[k], biased.position(k) - biased.effect(k));
@@ -184,7 +184,7 @@ TEST(BiasEvaluator, InverseLeadsBackToTheBiasedPoint) {
 TEST(BiasEvaluator, AnInverseThatDoesNotExistIsCounted) {
   // 1 m below the sensor and 99 m of range bias: the point would have to lie behind the sensor.
   const auto trajectory = std::make_shared<Trajectory>(sampled(straight(0), 0.0, 10.0, 1.0));
-  Points points;
+  EffectPoints points;
   points.add(5.0, {0.1, 300.0, 999.0});
   CoverageCount coverage;
   BiasEvaluator(trajectory, SystemVector::Unit(6) * -99.0)
@@ -198,7 +198,7 @@ TEST(BiasEvaluator, PointsWithoutTrajectoryAreCountedAndHaveNoEffect) {
   const auto later = sampled(straight(0), 20.0, 30.0, 0.1);
   samples.insert(samples.end(), later.begin(), later.end());
   const auto trajectory = std::make_shared<Trajectory>(samples);
-  Points points;
+  EffectPoints points;
   for (const double time : {-5.0, 5.0, 15.0, 15.5, std::nan(""), 25.0, 31.0}) {
     points.add(time, {100.0, 0.0, 0.0});
   }
@@ -220,7 +220,7 @@ TEST(BiasEvaluator, PointsWithoutTrajectoryAreCountedAndHaveNoEffect) {
 
 TEST(BiasEvaluator, NanCoordinatesDoNotDisturbTheirNeighbours) {
   const BiasEvaluator evaluator(circle(), allBiases());
-  Points clean = swath(700), holed = clean;
+  EffectPoints clean = swath(700), holed = clean;
   holed.x[3] = holed.y[3] = holed.z[3] = std::nan("");
   CoverageCount coverage;
   evaluator.inverseEffect(clean.columns(), 700, clean.effects(), coverage);
@@ -233,7 +233,7 @@ TEST(BiasEvaluator, NanCoordinatesDoNotDisturbTheirNeighbours) {
 }
 
 TEST(BiasEvaluator, ZeroBiasesGiveZero) {
-  Points points = swath(100);
+  EffectPoints points = swath(100);
   CoverageCount coverage;
   BiasEvaluator(circle(), SystemVector::Zero())
       .effect(points.columns(), points.time.size(), points.effects(), coverage);

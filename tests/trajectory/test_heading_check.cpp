@@ -12,13 +12,13 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kCourses[] = {10.0, 100.0, 190.0, 280.0};  // degrees
+constexpr double kCheckedCourses[] = {10.0, 100.0, 190.0, 280.0};  // degrees
 
 /// Four lines; \a value: what the column says (degrees) at a heading with 4 degrees of crab.
 template <typename Value>
 std::vector<TrajectorySample> lines(const Value& value) {
   std::vector<TrajectorySample> samples;
-  for (const double course : kCourses) {
+  for (const double course : kCheckedCourses) {
     auto line = test::sampled(test::straight(course), 0.0, 20.0, 0.1);
     for (TrajectorySample& sample : line) {
       sample.heading = value(course - 4.0) * kRadiansPerDegree;

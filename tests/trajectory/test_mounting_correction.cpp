@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 constexpr double kArcsec = kRadiansPerArcsec;
 
-SystemVector biases(double x, double y, double z, double pitch, double roll, double heading) {
+SystemVector biasesOf(double x, double y, double z, double pitch, double roll, double heading) {
   SystemVector all;
   all << x, y, z, pitch * kArcsec, roll * kArcsec, heading * kArcsec, 0.0, 0.0;
   return all;
@@ -143,9 +143,9 @@ TEST(MountingCorrection, PointsAgreeWithTheCorrectorInAllConventions) {
   for (const Program& program : programs()) {
     for (int n = 0; n < 1000; ++n) {
       const Mounting old{draws.vector(kPi / program.unit), draws.vector(2.0)};
-      const SystemVector bias = biases(draws.uniform(-0.5, 0.5), draws.uniform(-0.5, 0.5),
-                                       draws.uniform(-0.5, 0.5), draws.uniform(-3600, 3600),
-                                       draws.uniform(-3600, 3600), draws.uniform(-3600, 3600));
+      const SystemVector bias = biasesOf(draws.uniform(-0.5, 0.5), draws.uniform(-0.5, 0.5),
+                                         draws.uniform(-0.5, 0.5), draws.uniform(-3600, 3600),
+                                         draws.uniform(-3600, 3600), draws.uniform(-3600, 3600));
       const MountingCorrection correction = correctedMounting(program.convention, old, bias);
       const SensorPose pose = draws.pose();
       const Vector3d scanner = draws.uniform(50.0, 2000.0) * draws.direction();
@@ -172,8 +172,8 @@ TEST(MountingCorrection, PointsAgreeWithTheSimulatorsChain) {
     // The simulator has B of the parameters and C of the mirror: M = B C.
     const Mounting assumed{draws.vector(180.0), draws.vector(1.0)};
     const MountingFrame frame = mountingFrame(convention, assumed);
-    SystemVector bias = biases(0.0, 0.0, 0.0, draws.uniform(-400, 400), draws.uniform(-400, 400),
-                               draws.uniform(-400, 400));
+    SystemVector bias = biasesOf(0.0, 0.0, 0.0, draws.uniform(-400, 400), draws.uniform(-400, 400),
+                                 draws.uniform(-400, 400));
     const Matrix3d turn = boresightRotation(bias);
     SystemVector true_lever = SystemVector::Zero(), assumed_lever = true_lever;
     true_lever.head<3>() = draws.vector(1.0);
@@ -207,8 +207,8 @@ TEST(MountingCorrection, PointsAgreeWithTheSimulatorsChain) {
 // side down), pitch by 40" (nose up), heading by 50" counter-clockwise. Yaw is clockwise, down is
 // -up.
 TEST(MountingCorrection, SignsOfAStraightMounting) {
-  const MountingCorrection correction =
-      correctedMounting(mountingConventionNamed("zyx_frd"), {}, biases(0.1, 0.2, 0.3, 40, 100, 50));
+  const MountingCorrection correction = correctedMounting(mountingConventionNamed("zyx_frd"), {},
+                                                          biasesOf(0.1, 0.2, 0.3, 40, 100, 50));
   const Vector3d arcsec = 3600.0 * correction.after.angles;
   EXPECT_NEAR(arcsec[0], -100.0, 0.05);
   EXPECT_NEAR(arcsec[1], -40.0, 0.05);
@@ -218,8 +218,8 @@ TEST(MountingCorrection, SignsOfAStraightMounting) {
   // Products of the angles only: 100" x 50" = 0.024".
   EXPECT_LT(correction.subtracted_angle, 0.05 * kArcsec);
   // Y of NovAtel is about forward, roll, and Z counter-clockwise.
-  const MountingCorrection novatel =
-      correctedMounting(mountingConventionNamed("novatel"), {}, biases(0.1, 0.2, 0.3, 40, 100, 50));
+  const MountingCorrection novatel = correctedMounting(mountingConventionNamed("novatel"), {},
+                                                       biasesOf(0.1, 0.2, 0.3, 40, 100, 50));
   EXPECT_LT((3600.0 * novatel.after.angles - Vector3d(-40, -100, -50)).norm(), 0.1);
   EXPECT_LT((novatel.after.lever_arm - Vector3d(-0.1, -0.2, -0.3)).norm(), 3e-4);
 }
@@ -229,7 +229,7 @@ TEST(MountingCorrection, SignsOfAStraightMounting) {
 TEST(MountingCorrection, ScannerTurnedBy90Degrees) {
   const MountingCorrection correction =
       correctedMounting(mountingConventionNamed("zyx_frd"), {{0, 0, 90}, Vector3d::Zero()},
-                        biases(0, 0, 0, 0, 100, 0));
+                        biasesOf(0, 0, 0, 0, 100, 0));
   EXPECT_NEAR(correction.after.angles[0], 0.0, 1e-12);
   EXPECT_NEAR(3600.0 * correction.after.angles[1], 100.0, 1e-6);
   EXPECT_NEAR(correction.after.angles[2], 90.0, 1e-12);
@@ -239,7 +239,7 @@ TEST(MountingCorrection, ScannerTurnedBy90Degrees) {
   // Upside down (roll 180 degrees), a turn about forward still is one of the roll.
   const MountingCorrection over =
       correctedMounting(mountingConventionNamed("zyx_frd"), {{180, 0, 0}, Vector3d::Zero()},
-                        biases(0, 0, 0, 0, 100, 0));
+                        biasesOf(0, 0, 0, 0, 100, 0));
   EXPECT_NEAR(3600.0 * (over.after.angles[0] - 180.0), -100.0, 1e-6);
   EXPECT_NEAR(over.subtracted_angle, 0.0, 1e-9);
 }
@@ -249,7 +249,7 @@ TEST(MountingCorrection, ScannerTurnedBy90Degrees) {
 TEST(MountingCorrection, LeverArmIsTurned) {
   const MountingCorrection correction =
       correctedMounting(mountingConventionNamed("novatel"), {Vector3d::Zero(), {2, 0, 0}},
-                        biases(0, 0, 0, 0, 0, 1000));
+                        biasesOf(0, 0, 0, 0, 0, 1000));
   EXPECT_NEAR(correction.after.lever_arm.y(), -2.0 * std::sin(1000 * kArcsec), 1e-12);
   EXPECT_NEAR(correction.kept_lever, 9.696e-3, 1e-6);
   EXPECT_NEAR(correction.subtracted_lever, 9.696e-3, 1e-6);
@@ -262,7 +262,7 @@ TEST(MountingCorrection, StandardDeviationsByMonteCarlo) {
   mix.topRows<3>() *= 0.01, mix.bottomRows<3>() *= 30.0 * kArcsec;
   SystemMatrix covariance = SystemMatrix::Zero();
   covariance.topLeftCorner<6, 6>() = mix * mix.transpose();
-  const SystemVector mean = biases(0.1, -0.2, 0.3, 900, -700, 1200);
+  const SystemVector mean = biasesOf(0.1, -0.2, 0.3, 900, -700, 1200);
   for (const Program& program : programs()) {
     const Mounting old{Vector3d(0.7, -0.5, 1.9) / program.unit, {0.3, -1.2, 0.8}};
     const MountingCorrection correction =
@@ -320,7 +320,7 @@ TEST(MountingCorrection, RangeBiasActsAlongThePulse) {
   const Program program{mountingConventionNamed("novatel")};
   double largest = 0.0;
   for (int n = 0; n < 1000; ++n) {
-    SystemVector bias = biases(0, 0, 0, 100, -60, 80);
+    SystemVector bias = biasesOf(0, 0, 0, 100, -60, 80);
     bias[indexOf(SystemParameter::range_bias)] = 0.1;
     const Mounting old{{0.2, -0.1, 0.3}, Vector3d(0.5, 0.5, -0.7)};  // about 1 m
     const double angle = draws.uniform(-0.4, 0.4), range = 500.0;
@@ -341,8 +341,8 @@ TEST(MountingCorrection, RangeBiasActsAlongThePulse) {
 // are those of the corrector, and the simulator's points without the bias.
 TEST(MountingCorrection, PointsOfASimulatedBlock) {
   simulation::SimulationOptions options = simulation::SimulationOptions::preset("small", 0.2, 0.1);
-  options.mounting = biases(0.3, -0.2, 0.4, 3000, -2000, 4000);
-  options.bias = biases(0.1, 0.05, -0.1, 90, -100, 150);
+  options.mounting = biasesOf(0.3, -0.2, 0.4, 3000, -2000, 4000);
+  options.bias = biasesOf(0.1, 0.05, -0.1, 90, -100, 150);
   const simulation::Simulator simulator(options);
   const SystemVector assumed = options.mounting + options.bias;
   const Matrix3d assumed_turn = boresightRotation(assumed);
@@ -384,8 +384,8 @@ TEST(MountingCorrection, PointsOfASimulatedBlock) {
 
 TEST(MountingCorrection, RefusesWhatNoSensorHas) {
   const MountingConvention& convention = mountingConventionNamed("zyx_frd");
-  EXPECT_THROW(correctedMounting(convention, {}, biases(0, 0, 0, 30000, 0, 0)), UsageError);
-  EXPECT_THROW(correctedMounting(convention, {}, biases(200, 0, 0, 0, 0, 0)), UsageError);
+  EXPECT_THROW(correctedMounting(convention, {}, biasesOf(0, 0, 0, 30000, 0, 0)), UsageError);
+  EXPECT_THROW(correctedMounting(convention, {}, biasesOf(200, 0, 0, 0, 0, 0)), UsageError);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(correctedMounting(convention, {{0, nan, 0}, {0, 0, 0}}, SystemVector::Zero()),
                UsageError);

@@ -15,17 +15,11 @@
 namespace pcl_als {
 namespace {
 
+using test::pathOf;
+using test::Points;
 using test::RayFlight;
+using test::wavy;
 using test::wavyPath;
-using Points = std::vector<LidarReturn>;
-
-ReconstructedPath only(const Points& points) {
-  TrajectoryReconstruction reconstruction;
-  reconstruction.add(reconstruction.addStrip("1"), points.data(), points.size());
-  std::vector<ReconstructedPath> paths = reconstruction.reconstruct();
-  EXPECT_EQ(paths.size(), 1U);
-  return paths.front();
-}
 
 /// Root mean squares over time of the errors over their standard deviations.
 Eigen::Vector3d normalised(const ReconstructedPath& path) {
@@ -35,12 +29,6 @@ Eigen::Vector3d normalised(const ReconstructedPath& path) {
                    .cwiseAbs2()
                    .cwiseQuotient(sample.covariance.diagonal());
   return (squares / static_cast<double>(path.samples.size())).cwiseSqrt();
-}
-
-RayFlight wavy() {
-  RayFlight flight;
-  flight.path = wavyPath;
-  return flight;
 }
 
 /// Multiplies the recorded angles of points, as where their unit is another.
@@ -57,7 +45,7 @@ TEST(PathRefusals, RefusesScanAnglesOfAnotherUnit) {
     flight.trees = 0.0;
     Points points = flight.points();
     scaleAngles(points, 10.0F);
-    const ReconstructedPath path = only(points);
+    const ReconstructedPath path = pathOf(points);
     EXPECT_FALSE(path.found) << path.height << " m " << path.meanStd().transpose();
     EXPECT_NE(path.reason.find("scan angles"), std::string::npos) << path.reason;
   }
@@ -73,7 +61,7 @@ TEST(PathRefusals, DoesNotBelieveScanAnglesThatContradictRays) {
     flight.angle_step = 0.006;
     Points points = flight.points();
     scaleAngles(points, 3.0F);
-    const ReconstructedPath path = only(points);
+    const ReconstructedPath path = pathOf(points);
     if (!path.found) {
       EXPECT_NE(path.reason.find("scan angles"), std::string::npos) << path.reason;
       continue;
@@ -95,7 +83,7 @@ TEST(PathRefusals, ShortStripsAreRightOrUncertain) {
     flight.noise = 0.02;
     flight.angle_step = seed % 4 == 0 ? 1.0 : 0.0;
     flight.seed = seed;
-    const ReconstructedPath path = only(flight.points());
+    const ReconstructedPath path = pathOf(flight.points());
     if (!path.found) continue;
     ++found;
     const Eigen::Vector3d is = normalised(path);
@@ -112,13 +100,13 @@ TEST(PathRefusals, RefusesPathsThatNoAircraftFlies) {
   RayFlight flight = wavy();
   flight.to = 3.0;
   flight.path = [](double time) { return Eigen::Vector3d(0.0, 450.0 * time, 1000.0); };
-  const ReconstructedPath path = only(flight.points());
+  const ReconstructedPath path = pathOf(flight.points());
   EXPECT_FALSE(path.found);
   EXPECT_NE(path.reason.find("m/s"), std::string::npos) << path.reason;
   flight.path = [](double time) {
     return Eigen::Vector3d(0.0, 60.0 * time, 1000.0 + 300.0 * time);
   };
-  EXPECT_FALSE(only(flight.points()).found);
+  EXPECT_FALSE(pathOf(flight.points()).found);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct Flight {
 };
 
 /// Findings when the attitude is changed by \a change before it is given.
-std::string said(const Flight& flight, const std::function<void(TrajectorySample&)>& change) {
+std::string saidOfRoll(const Flight& flight, const std::function<void(TrajectorySample&)>& change) {
   auto samples = test::sampled(test::straight(0.0), 0.0, 20.0, 0.005);
   std::vector<TrajectorySample> given = samples;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -80,28 +80,28 @@ bool refusedSign(const std::string& text) {
 
 TEST(RollSign, ShowsAtTheEdgesOfTheSwath) {
   const Flight flight;
-  EXPECT_EQ(said(flight, keep), "");
-  EXPECT_TRUE(refusedSign(said(flight, negate)));
+  EXPECT_EQ(saidOfRoll(flight, keep), "");
+  EXPECT_TRUE(refusedSign(saidOfRoll(flight, negate)));
   // A twentieth of a degree is enough where the swath is sampled well.
   Flight calm;
   calm.roll = 0.05 * kRadiansPerDegree;
-  EXPECT_EQ(said(calm, keep), "");
-  EXPECT_TRUE(refusedSign(said(calm, negate)));
+  EXPECT_EQ(saidOfRoll(calm, keep), "");
+  EXPECT_TRUE(refusedSign(saidOfRoll(calm, negate)));
 }
 
 TEST(RollSign, OneEdgeOfAScene) {
   Flight flight;
   flight.right_end = 200.0;
-  EXPECT_EQ(said(flight, keep), "");
-  EXPECT_TRUE(refusedSign(said(flight, negate)));
+  EXPECT_EQ(saidOfRoll(flight, keep), "");
+  EXPECT_TRUE(refusedSign(saidOfRoll(flight, negate)));
 }
 
 TEST(RollSign, RadiansAndColumnsWithoutValues) {
   const Flight flight;
-  const std::string radians = said(flight, [](auto& s) { s.roll *= kRadiansPerDegree; });
+  const std::string radians = saidOfRoll(flight, [](auto& s) { s.roll *= kRadiansPerDegree; });
   EXPECT_EQ(radians.rfind("refused: the roll of the trajectory changes by a 57th", 0), 0)
       << radians;
-  const std::string zeros = said(flight, [](auto& s) { s.roll = 0.0; });
+  const std::string zeros = saidOfRoll(flight, [](auto& s) { s.roll = 0.0; });
   EXPECT_EQ(zeros.rfind("refused: the roll of the trajectory is the same at all times", 0), 0)
       << zeros;
 }
@@ -110,12 +110,12 @@ TEST(RollSign, RadiansAndColumnsWithoutValues) {
 TEST(RollSign, NothingIsSaidWithoutEvidence) {
   Flight still;
   still.roll = 0.001 * kRadiansPerDegree;
-  EXPECT_EQ(said(still, negate), "") << "no changes of roll";
+  EXPECT_EQ(saidOfRoll(still, negate), "") << "no changes of roll";
   Flight stabilised;
   stabilised.stabilised = true;
-  EXPECT_EQ(said(stabilised, negate), "") << "the swath does not follow the roll";
+  EXPECT_EQ(saidOfRoll(stabilised, negate), "") << "the swath does not follow the roll";
   stabilised.angle = Flight::Angle::from_vertical;
-  EXPECT_EQ(said(stabilised, negate), "") << "nor do angles from the vertical";
+  EXPECT_EQ(saidOfRoll(stabilised, negate), "") << "nor do angles from the vertical";
 }
 
 // Between two tile borders the edges show nothing; angles of the mirror, in whole degrees, do.
@@ -124,15 +124,15 @@ TEST(RollSign, ShowsInRecordedAnglesOfTheMirror) {
     Flight tile;
     tile.left_end = -200.0, tile.right_end = 200.0;
     tile.roll = 0.02;
-    EXPECT_EQ(said(tile, negate), "") << "without recorded angles";
+    EXPECT_EQ(saidOfRoll(tile, negate), "") << "without recorded angles";
     tile.angle = Flight::Angle::in_body;
     tile.angle_sign = sign;
-    EXPECT_EQ(said(tile, keep), "") << sign;
-    EXPECT_TRUE(refusedSign(said(tile, negate))) << sign;
+    EXPECT_EQ(saidOfRoll(tile, keep), "") << sign;
+    EXPECT_TRUE(refusedSign(saidOfRoll(tile, negate))) << sign;
     Flight stabilised = tile;
     stabilised.stabilised = true;
-    EXPECT_EQ(said(stabilised, keep), "") << sign;
-    EXPECT_TRUE(refusedSign(said(stabilised, negate))) << sign;
+    EXPECT_EQ(saidOfRoll(stabilised, keep), "") << sign;
+    EXPECT_TRUE(refusedSign(saidOfRoll(stabilised, negate))) << sign;
   }
 }
 

@@ -77,7 +77,7 @@ double largestDifference(const std::vector<Eigen::Vector3d>& a,
   return largest;
 }
 
-std::shared_ptr<const Trajectory> flight(const Trajectory::Options& options) {
+std::shared_ptr<const Trajectory> curvedFlight(const Trajectory::Options& options) {
   return std::make_shared<const Trajectory>(curve(), options);
 }
 
@@ -95,16 +95,16 @@ TEST(SystemCorrection, UsesTheFlightAsTheCalibrationDoesWhateverItIsGiven) {
     nominal.nominal_attitude = true;
     attitudes.use_attitude = true;
     if (attitude == AttitudeSource::trajectory) {
-      EXPECT_EQ(largestDifference(moved({calibration, flight(attitudes)}), expected), 0.0);
-      EXPECT_THROW(SystemCorrection(calibration, flight({})), InputError);
-      EXPECT_THROW(SystemCorrection(calibration, flight(nominal)), InputError);
+      EXPECT_EQ(largestDifference(moved({calibration, curvedFlight(attitudes)}), expected), 0.0);
+      EXPECT_THROW(SystemCorrection(calibration, curvedFlight({})), InputError);
+      EXPECT_THROW(SystemCorrection(calibration, curvedFlight(nominal)), InputError);
       Samples incomplete = curve();
       incomplete[7].roll = std::nan("");
       EXPECT_THROW(SystemCorrection(calibration, incomplete), InputError);
       continue;
     }
     for (const Trajectory::Options& options : {Trajectory::Options(), nominal, attitudes})
-      EXPECT_EQ(largestDifference(moved({calibration, flight(options)}), expected), 0.0);
+      EXPECT_EQ(largestDifference(moved({calibration, curvedFlight(options)}), expected), 0.0);
   }
 }
 

@@ -66,7 +66,7 @@ TrajectoryPlausibility seenFrom(const Samples& samples, bool attitude = false, d
 
 /// What the check says of a trajectory that was changed; empty: nothing.
 template <typename Change>
-std::string said(const Change& change, bool attitude = false) {
+std::string saidOfChange(const Change& change, bool attitude = false) {
   Samples samples = flown();
   for (TrajectorySample& sample : samples) change(sample);
   try {
@@ -121,26 +121,29 @@ TEST(TrajectoryPlausibility, RaysShowATrajectoryBesideTheTrueOne) {
 
 TEST(TrajectoryPlausibility, AcceptsTheRightOne) {
   for (const bool attitude : {false, true}) {
-    EXPECT_EQ(said([](TrajectorySample&) {}, attitude), "");
+    EXPECT_EQ(saidOfChange([](TrajectorySample&) {}, attitude), "");
   }
 }
 
 TEST(TrajectoryPlausibility, RefusesPositionsThatAreNotThePoints) {
-  EXPECT_NE(said([](auto& s) { s.position /= 0.3048; }), "");
-  EXPECT_NE(said([](auto& s) { std::swap(s.position.x(), s.position.y()); }), "");
-  EXPECT_NE(said([](auto& s) { std::swap(s.position.x(), s.position.z()); }), "");
-  EXPECT_NE(said([](auto& s) { s.position.x() += 400e3; }), "");
-  EXPECT_NE(said([](auto& s) { s.position.z() += 400e3; }).find("401000 m below the trajectory"),
-            std::string::npos);
-  EXPECT_NE(said([](auto& s) { s.position.z() -= 1100.0; }).find("above the trajectory"),
-            std::string::npos);
+  EXPECT_NE(saidOfChange([](auto& s) { s.position /= 0.3048; }), "");
+  EXPECT_NE(saidOfChange([](auto& s) { std::swap(s.position.x(), s.position.y()); }), "");
+  EXPECT_NE(saidOfChange([](auto& s) { std::swap(s.position.x(), s.position.z()); }), "");
+  EXPECT_NE(saidOfChange([](auto& s) { s.position.x() += 400e3; }), "");
   EXPECT_NE(
-      said([](auto& s) { s.position.x() += 4e3; }).find("strip 1: its points lie 4000 m beside"),
+      saidOfChange([](auto& s) { s.position.z() += 400e3; }).find("401000 m below the trajectory"),
       std::string::npos);
+  EXPECT_NE(saidOfChange([](auto& s) { s.position.z() -= 1100.0; }).find("above the trajectory"),
+            std::string::npos);
+  EXPECT_NE(saidOfChange([](auto& s) {
+              s.position.x() += 4e3;
+            }).find("strip 1: its points lie 4000 m beside"),
+            std::string::npos);
 }
 
 TEST(TrajectoryPlausibility, RefusesADisplacementThatNoStripShowsAlone) {
-  const std::string text = said([](auto& s) { s.position += Eigen::Vector3d(-120.0, 90.0, 0.0); });
+  const std::string text =
+      saidOfChange([](auto& s) { s.position += Eigen::Vector3d(-120.0, 90.0, 0.0); });
   EXPECT_NE(text.find("lies 150 m (east -120, north 90) beside"), std::string::npos) << text;
 }
 
@@ -150,12 +153,14 @@ TEST(TrajectoryPlausibility, RefusesAHeadingThatIsNone) {
     return text.find(part) != std::string::npos;
   };
   // What a reader makes of radians: as if they were degrees.
-  EXPECT_TRUE(in(said([](auto& s) { s.heading *= kRadiansPerDegree; }, true), "in radians"));
-  EXPECT_TRUE(in(said([](auto& s) { s.heading = 0.5 * kPi - s.heading; }, true),
+  EXPECT_TRUE(
+      in(saidOfChange([](auto& s) { s.heading *= kRadiansPerDegree; }, true), "in radians"));
+  EXPECT_TRUE(in(saidOfChange([](auto& s) { s.heading = 0.5 * kPi - s.heading; }, true),
                  "counter-clockwise from east"));
-  EXPECT_TRUE(in(said([](auto& s) { s.heading += kPi; }, true), "heading + 180"));
-  EXPECT_TRUE(in(said([](auto& s) { s.heading = 0.0; }, true), "column without values"));
-  EXPECT_EQ(said([](auto& s) { s.heading = 0.0; }, false), "") << "the attitude is not used";
+  EXPECT_TRUE(in(saidOfChange([](auto& s) { s.heading += kPi; }, true), "heading + 180"));
+  EXPECT_TRUE(in(saidOfChange([](auto& s) { s.heading = 0.0; }, true), "column without values"));
+  EXPECT_EQ(saidOfChange([](auto& s) { s.heading = 0.0; }, false), "")
+      << "the attitude is not used";
 }
 
 /// One line with motion in pitch and roll, its points by a forward chain of its own; what the check

@@ -12,28 +12,18 @@
 #include <pcl_als/trajectory/trajectory_reconstruction.h>
 
 #include "ray_flight.h"
+#include "warning_texts.h"
 
 namespace pcl_als {
 namespace {
 
+using test::isWarnedOf;
+using test::pathOf;
+using test::pathsOf;
+using test::Points;
 using test::RayFlight;
+using test::wavy;
 using test::wavyPath;
-using Points = std::vector<LidarReturn>;
-
-std::vector<ReconstructedPath> reconstructed(const std::vector<Points>& strips) {
-  TrajectoryReconstruction reconstruction;
-  for (std::size_t i = 0; i < strips.size(); ++i) {
-    const int strip = reconstruction.addStrip(std::to_string(i + 1));
-    reconstruction.add(strip, strips[i].data(), strips[i].size());
-  }
-  return reconstruction.reconstruct();
-}
-
-ReconstructedPath only(const Points& points) {
-  std::vector<ReconstructedPath> paths = reconstructed({points});
-  EXPECT_EQ(paths.size(), 1U);
-  return paths.front();
-}
 
 /// Root mean squares over time of errors, and of errors over their standard deviations.
 struct Deviation {
@@ -52,21 +42,9 @@ Deviation deviation(const ReconstructedPath& path,
   return {(sum.rms / n).cwiseSqrt(), (sum.normalised / n).cwiseSqrt()};
 }
 
-RayFlight wavy() {
-  RayFlight flight;
-  flight.path = wavyPath;
-  return flight;
-}
-
-bool mentions(const ReconstructedPath& path, const std::string& text) {
-  return std::any_of(path.warnings.begin(), path.warnings.end(), [&](const Warning& warning) {
-    return warning.text.find(text) != std::string::npos;
-  });
-}
-
 // 1 cm across a ray, 7 m between its returns, 1000 m: 2 m for a ray; 128 rays in a second.
 TEST(TrajectoryReconstruction, FindsThePathFromRays) {
-  const ReconstructedPath path = only(wavy().points());
+  const ReconstructedPath path = pathOf(wavy().points());
   ASSERT_TRUE(path.found) << path.reason;
   const Deviation is = deviation(path, wavyPath);
   EXPECT_LT(is.rms.head<2>().maxCoeff(), 0.4);
@@ -84,7 +62,7 @@ TEST(TrajectoryReconstruction, StandardDeviationsAreThoseOfTheErrors) {
     RayFlight flight = wavy();
     flight.seed = seed;
     flight.trees = 0.05 + 0.01 * seed;
-    squares += deviation(only(flight.points()), wavyPath).normalised.cwiseAbs2() / kSeeds;
+    squares += deviation(pathOf(flight.points()), wavyPath).normalised.cwiseAbs2() / kSeeds;
   }
   for (int c = 0; c < 3; ++c) {
     EXPECT_GT(std::sqrt(squares[c]), 0.8) << c;
@@ -98,7 +76,7 @@ TEST(TrajectoryReconstruction, FollowsATurn) {
     const double turned = 0.02 * time;
     return {3000.0 * (1.0 - std::cos(turned)), 3000.0 * std::sin(turned), 800.0};
   };
-  const ReconstructedPath path = only(flight.points());
+  const ReconstructedPath path = pathOf(flight.points());
   ASSERT_TRUE(path.found);
   const Deviation is = deviation(path, flight.path);
   EXPECT_LT(is.normalised.maxCoeff(), 2.0);
@@ -113,7 +91,7 @@ TEST(TrajectoryReconstruction, UsesScanAnglesWithoutSecondReturns) {
       flight.trees = 0.0;
       flight.angle_step = step;
       flight.angle_sign = sign;
-      const ReconstructedPath path = only(flight.points());
+      const ReconstructedPath path = pathOf(flight.points());
       ASSERT_TRUE(path.found) << path.reason;
       EXPECT_TRUE(path.angles.used);
       EXPECT_EQ(path.angles.right_positive, sign > 0.0);
@@ -132,7 +110,7 @@ TEST(TrajectoryReconstruction, AllowsForSkewedScanLines) {
   RayFlight flight = wavy();
   flight.trees = 0.0;
   flight.course = 0.24;
-  const ReconstructedPath path = only(flight.points());
+  const ReconstructedPath path = pathOf(flight.points());
   ASSERT_TRUE(path.found) << path.reason;
   const Deviation is = deviation(path, wavyPath);
   EXPECT_LT(is.rms.z(), 15.0);
@@ -144,7 +122,7 @@ TEST(TrajectoryReconstruction, UsesScanAnglesOfShortTiles) {
   RayFlight flight = wavy();
   flight.trees = 0.0;
   flight.from = 4.1, flight.to = 4.9;
-  const ReconstructedPath path = only(flight.points());
+  const ReconstructedPath path = pathOf(flight.points());
   ASSERT_TRUE(path.found) << path.reason;
   EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
 }
@@ -154,7 +132,7 @@ TEST(TrajectoryReconstruction, AllowsForRollInScanAngles) {
   flight.trees = 0.0;
   flight.angles_with_roll = false;
   flight.roll = [](double time) { return 0.02 * std::sin(1.1 * time); };
-  const ReconstructedPath path = only(flight.points());
+  const ReconstructedPath path = pathOf(flight.points());
   ASSERT_TRUE(path.found) << path.reason;
   EXPECT_GT(path.angles.roll, 0.005) << "RMS of the roll is 0.014";
   const Deviation is = deviation(path, wavyPath);
@@ -171,7 +149,7 @@ TEST(TrajectoryReconstruction, ScanAnglesBridgeOpenGround) {
       std::remove_if(points.begin(), points.end(),
                      [](const LidarReturn& p) { return p.time > 8.0 && p.number_of_returns > 1; }),
       points.end());
-  const ReconstructedPath path = only(points);
+  const ReconstructedPath path = pathOf(points);
   ASSERT_TRUE(path.found) << path.reason;
   EXPECT_TRUE(path.angles.used);
   EXPECT_GT(path.samples.back().covariance(1, 1), 100.0 * path.samples[40].covariance(1, 1));
@@ -202,7 +180,7 @@ TEST(TrajectoryReconstruction, PitchOfTheScanLinesContinuesThePath) {
                                          (p.time < 14.0 || p.time > 22.0);
                                 }),
                  points.end());
-    const ReconstructedPath path = only(points);
+    const ReconstructedPath path = pathOf(points);
     ASSERT_TRUE(path.found) << path.reason;
     const Deviation is = deviation(path, flight.path);
     squares += is.rms.y() * is.rms.y() / kSeeds;
@@ -229,7 +207,7 @@ TEST(TrajectoryReconstruction, AllowsForMovementsThatTheKnotsDoNotFollow) {
     };
     flight.noise = 1e-4;
     flight.seed = seed;
-    const ReconstructedPath path = only(flight.points());
+    const ReconstructedPath path = pathOf(flight.points());
     ASSERT_TRUE(path.found) << path.reason;
     squares += deviation(path, flight.path).normalised.cwiseAbs2() / kSeeds;
   }
@@ -251,23 +229,23 @@ TEST(TrajectoryReconstruction, EndsWhereNothingShowsThePath) {
       std::remove_if(points.begin(), points.end(),
                      [](const LidarReturn& p) { return p.time > 10.0 && p.position.z() > 1.0; }),
       points.end());
-  const ReconstructedPath path = only(points);
+  const ReconstructedPath path = pathOf(points);
   ASSERT_TRUE(path.found);
   EXPECT_GT(path.samples.back().time, 10.0);
   EXPECT_LT(path.samples.back().time, 145.0);
-  EXPECT_TRUE(mentions(path, "not determined for"));
+  EXPECT_TRUE(isWarnedOf(path.warnings, "not determined for"));
 }
 
 TEST(TrajectoryReconstruction, SaysWhyThereIsNone) {
   RayFlight flight = wavy();
   flight.trees = 0.0;
   flight.angle_step = 0.0;
-  const ReconstructedPath path = only(flight.points());
+  const ReconstructedPath path = pathOf(flight.points());
   EXPECT_FALSE(path.found);
   EXPECT_NE(path.reason.find("no pulse has two returns"), std::string::npos) << path.reason;
   Points timeless = wavy().points();
   for (LidarReturn& point : timeless) point.time = 0.0;
-  EXPECT_NE(only(timeless).reason.find("no GPS times"), std::string::npos);
+  EXPECT_NE(pathOf(timeless).reason.find("no GPS times"), std::string::npos);
 }
 
 /// A tenth of the pulses are of other places.
@@ -278,7 +256,7 @@ TEST(TrajectoryReconstruction, RejectsRaysThatMissThePath) {
   for (LidarReturn& point : points)
     if (point.number_of_returns == 2 && point.return_number == 1 && i++ % 10 == 0)
       point.position += Eigen::Vector3d(1.5, -2.0, 0.0);
-  const ReconstructedPath path = only(points);
+  const ReconstructedPath path = pathOf(points);
   ASSERT_TRUE(path.found);
   EXPECT_GT(path.rejected, path.rays / 20);
   EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
@@ -288,9 +266,9 @@ TEST(TrajectoryReconstruction, DoesNotDependOnTheOrderOfPoints) {
   RayFlight flight = wavy();
   flight.to = 5.0;
   Points points = flight.points();
-  const ReconstructedPath sorted = only(points);
+  const ReconstructedPath sorted = pathOf(points);
   std::shuffle(points.begin(), points.end(), std::mt19937(5));
-  const ReconstructedPath shuffled = only(points);
+  const ReconstructedPath shuffled = pathOf(points);
   ASSERT_EQ(sorted.rays, shuffled.rays);
   for (std::size_t i = 0; i < sorted.samples.size(); ++i)
     EXPECT_LT((sorted.samples[i].position - shuffled.samples[i].position).norm(), 1e-3);
@@ -314,18 +292,18 @@ TEST(TrajectoryReconstruction, SeparatesChannelsOfOneTime) {
       both.back().time = a[k].time;
     }
   }
-  const ReconstructedPath path = only(both);
+  const ReconstructedPath path = pathOf(both);
   ASSERT_TRUE(path.found);
-  EXPECT_TRUE(mentions(path, "share a time")) << "ambiguous pulses are reported";
+  EXPECT_TRUE(isWarnedOf(path.warnings, "share a time")) << "ambiguous pulses are reported";
   EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
 }
 
 TEST(TrajectoryReconstruction, PairsReturnsWithoutNumbersByTime) {
   Points points = wavy().points();
   for (LidarReturn& point : points) point.return_number = point.number_of_returns = 1;
-  const ReconstructedPath path = only(points);
+  const ReconstructedPath path = pathOf(points);
   ASSERT_TRUE(path.found);
-  EXPECT_TRUE(mentions(path, "have no numbers"));
+  EXPECT_TRUE(isWarnedOf(path.warnings, "have no numbers"));
   EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
 }
 
@@ -337,10 +315,10 @@ TEST(TrajectoryReconstruction, CountsDuplicatesAndPointsWithoutTime) {
     LidarReturn& timeless = points.emplace_back(point);
     timeless.time = 0.0;
   }
-  const ReconstructedPath path = only(points);
+  const ReconstructedPath path = pathOf(points);
   ASSERT_TRUE(path.found);
-  EXPECT_TRUE(mentions(path, "repeated points"));
-  EXPECT_TRUE(mentions(path, "without a time"));
+  EXPECT_TRUE(isWarnedOf(path.warnings, "repeated points"));
+  EXPECT_TRUE(isWarnedOf(path.warnings, "without a time"));
   EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
 }
 
@@ -352,9 +330,9 @@ TEST(TrajectoryReconstruction, AcceptsRoundedTimes) {
     flight.noise = 1e-3;
     Points points = flight.points();
     for (LidarReturn& point : points) point.time = step * std::round(point.time / step);
-    const ReconstructedPath path = only(points);
+    const ReconstructedPath path = pathOf(points);
     ASSERT_TRUE(path.found) << path.reason;
-    EXPECT_FALSE(mentions(path, "have no numbers"));
+    EXPECT_FALSE(isWarnedOf(path.warnings, "have no numbers"));
     EXPECT_LT(path.rejected, path.rays / 5);
     EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
     EXPECT_TRUE(step <= 0.01 || std::abs(path.meanStd().y() - 6.0 / std::sqrt(12.0)) < 0.5);
@@ -367,7 +345,7 @@ TEST(TrajectoryReconstruction, JoinsStripsOfOneTimeAndDividesAtGaps) {
   for (const LidarReturn& point : points)
     if (point.time < 8.0 || point.time > 14.0)
       tiles[point.position.x() > 0.0 ? 1 : 0].push_back(point);
-  const std::vector<ReconstructedPath> paths = reconstructed(tiles);
+  const std::vector<ReconstructedPath> paths = pathsOf(tiles);
   ASSERT_EQ(paths.size(), 2U) << "the gap of six seconds";
   EXPECT_EQ(paths[0].name, "1 + 2");
   EXPECT_LT(paths[0].times.last, 8.1);
@@ -383,7 +361,7 @@ TEST(TrajectoryReconstruction, NamesOfManyJoinedStripsAreShort) {
   std::vector<Points> strips(40);
   std::size_t i = 0;
   for (const LidarReturn& point : wavy().points()) strips[i++ / 7 % 40].push_back(point);
-  const std::vector<ReconstructedPath> paths = reconstructed(strips);
+  const std::vector<ReconstructedPath> paths = pathsOf(strips);
   ASSERT_EQ(paths.size(), 1U);
   EXPECT_EQ(paths[0].name, "1 + 2 + 3 + 4 + 36 more");
   EXPECT_TRUE(paths[0].found);

@@ -35,7 +35,7 @@ Samples withAttitude(Samples samples) {
 }
 
 /// 100 s to the north at 20 Hz in map coordinates; the heading passes from 359 to 1 degree.
-Samples flight() {
+Samples straightFlight() {
   return withAttitude(
       test::sampled(test::straight(0.0, {500000.0, 5400000.0, 0.0}), 0.0, 100.0, 0.05));
 }
@@ -50,7 +50,7 @@ void addNoise(Samples& samples, unsigned seed, double metres, double radians) {
 }
 
 TEST(TrajectoryScreening, FindsASampleOfZeros) {
-  Samples samples = flight();
+  Samples samples = straightFlight();
   samples[908].position.setZero();
   samples[908].roll = samples[908].pitch = samples[908].heading = 0.0;
   const TrajectoryScreening screening = screenTrajectory(samples);
@@ -60,7 +60,7 @@ TEST(TrajectoryScreening, FindsASampleOfZeros) {
 }
 
 TEST(TrajectoryScreening, FindsAWrongHeading) {
-  Samples samples = flight();
+  Samples samples = straightFlight();
   samples[700].heading += 90.0 * kDegree;
   const TrajectoryScreening screening = screenTrajectory(samples);
   EXPECT_EQ(screening.indices(), Indices{700});
@@ -69,7 +69,7 @@ TEST(TrajectoryScreening, FindsAWrongHeading) {
 }
 
 TEST(TrajectoryScreening, FindsAWrongTimeAndShortRuns) {
-  Samples samples = flight();
+  Samples samples = straightFlight();
   samples[300].time += 3.0;
   for (const std::size_t i : {1000U, 1001U}) samples[i].position.x() += 40.0;
   for (std::size_t i = 1500; i < 1505; ++i) samples[i].position.z() -= 300.0;
@@ -79,14 +79,14 @@ TEST(TrajectoryScreening, FindsAWrongTimeAndShortRuns) {
 }
 
 TEST(TrajectoryScreening, FindsTheFirstAndTheLastSample) {
-  Samples samples = flight();
+  Samples samples = straightFlight();
   samples.front().position.y() += 500.0;
   samples.back().position.setZero();
   EXPECT_EQ(screenTrajectory(samples).indices(), (Indices{0, samples.size() - 1}));
 }
 
 TEST(TrajectoryScreening, RefusesWhatCannotBeBridged) {
-  Samples samples = flight();
+  Samples samples = straightFlight();
   for (std::size_t i = 600; i < 700; ++i) samples[i].position.x() += 1000.0;  // 5 s
   const TrajectoryScreening screening = screenTrajectory(samples);
   EXPECT_TRUE(screening.outliers.empty());
@@ -94,14 +94,14 @@ TEST(TrajectoryScreening, RefusesWhatCannotBeBridged) {
       << screening.objection();
   EXPECT_THROW(Trajectory{samples}, InputError);
 
-  samples = flight();
+  samples = straightFlight();
   std::mt19937 random(1);
   for (int i = 0; i < 100; ++i) samples[random() % samples.size()].position.x() += 200.0;
   EXPECT_FALSE(screenTrajectory(samples).objection().empty());
 }
 
 TEST(TrajectoryScreening, TheTrajectoryIsThatWithoutTheOutliers) {
-  Samples samples = flight();
+  Samples samples = straightFlight();
   const Trajectory clean(samples);
   samples[908].position.setZero();
   const Trajectory repaired(samples);
@@ -152,8 +152,8 @@ Samples hovering() {
 
 /// Two lines an hour and 3 km apart; positions rounded to centimetres, angles to 0.01 degrees.
 Samples twoLines() {
-  Samples samples = flight();
-  for (TrajectorySample s : flight()) {
+  Samples samples = straightFlight();
+  for (TrajectorySample s : straightFlight()) {
     s.time += 3600.0;
     s.position.x() += 3000.0;
     samples.push_back(s);
@@ -168,14 +168,15 @@ Samples twoLines() {
 }
 
 Samples withAngleSteps() {
-  Samples samples = flight();
+  Samples samples = straightFlight();
   for (TrajectorySample& s : samples) s.heading = std::remainder(s.heading + 4.0 * kPi, 2.0 * kPi);
   return samples;
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, GoodFlight,
-    testing::Values(std::pair("straight", flight()), std::pair("1 Hz", every(flight(), 20)),
+    testing::Values(std::pair("straight", straightFlight()),
+                    std::pair("1 Hz", every(straightFlight(), 20)),
                     std::pair("turn", withAttitude(test::sampled(test::circling, 0.0, 200.0, 0.1))),
                     std::pair("hovering", hovering()), std::pair("two lines", twoLines()),
                     std::pair("heading through north", withAngleSteps()),
@@ -229,7 +230,8 @@ TEST(CorrectionSizes, LeaveOutTheOffsetsOfSystems) {
   calibration.systems[0].group.strips = {"1"};
   calibration.systems[1].group.strips = {"2"};
   calibration.systems[1].offset = {0.0, 0.0, 2.0};
-  const SystemCorrection correction(calibration, std::make_shared<const Trajectory>(flight()));
+  const SystemCorrection correction(calibration,
+                                    std::make_shared<const Trajectory>(straightFlight()));
 
   constexpr std::size_t kCount = 100;
   const std::vector<double> time(kCount, 50.0), x(kCount, 500000.0), y(kCount, 5403000.0),

@@ -11,10 +11,10 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kWidth = 2.0;  // of the response, samples of 1 ns
+constexpr double kResponseWidth = 2.0;  // of the response, samples of 1 ns
 
 /// Echoes of amplitudes and times (samples) on a baseline of 100, with small changes of sign.
-Waveform waveformOf(const std::vector<std::pair<double, double>>& echoes) {
+Waveform waveformWith(const std::vector<std::pair<double, double>>& echoes) {
   Waveform waveform;
   waveform.reference.descriptor = 1;
   waveform.descriptor.bits = 16;
@@ -23,7 +23,7 @@ Waveform waveformOf(const std::vector<std::pair<double, double>>& echoes) {
   for (int i = 0; i < 64; ++i) {
     double count = 100.0 + 0.4 * ((i * 7) % 5 - 2);
     for (const auto& [amplitude, time] : echoes)
-      count += amplitude * std::exp(-0.5 * std::pow((i - time) / kWidth, 2));
+      count += amplitude * std::exp(-0.5 * std::pow((i - time) / kResponseWidth, 2));
     waveform.counts.push_back(count);
   }
   return waveform;
@@ -31,17 +31,17 @@ Waveform waveformOf(const std::vector<std::pair<double, double>>& echoes) {
 
 class Echoes : public testing::Test {
  protected:
-  Echoes() { settings_.pulse_width_ns = kFwhmOfGaussian * kWidth; }
+  Echoes() { settings_.pulse_width_ns = kFwhmOfGaussian * kResponseWidth; }
   const EchoSettings& settings() const { return settings_; }
 
   EchoSettings settings_;
-  std::map<unsigned, PulseResponse> responses_{{1, PulseResponse::gaussian(kWidth)}};
+  std::map<unsigned, PulseResponse> responses_{{1, PulseResponse::gaussian(kResponseWidth)}};
 };
 
 TEST_F(Echoes, BelongToReturnsWithinTheWidthOfTheResponse) {
   PulseEchoes echoes(responses_, settings());
   // The width is 4.71 ns: the first return is 1.5 ns behind its echo, the second 5 ns.
-  echoes.decompose(waveformOf({{400.0, 20.0}, {100.0, 40.0}}), {21500.0, 45000.0});
+  echoes.decompose(waveformWith({{400.0, 20.0}, {100.0, 40.0}}), {21500.0, 45000.0});
   ASSERT_EQ(echoes.count(), 2);
   EXPECT_EQ(echoes.echoOf(0), 0);
   EXPECT_EQ(echoes.echoOf(1), -1);
@@ -54,7 +54,7 @@ TEST_F(Echoes, BelongToReturnsWithinTheWidthOfTheResponse) {
 
 TEST_F(Echoes, GoToTheNearestOfSeveralReturns) {
   PulseEchoes echoes(responses_, settings());
-  echoes.decompose(waveformOf({{400.0, 20.0}, {100.0, 40.0}}), {19000.0, 20500.0});
+  echoes.decompose(waveformWith({{400.0, 20.0}, {100.0, 40.0}}), {19000.0, 20500.0});
   ASSERT_EQ(echoes.count(), 2);
   EXPECT_EQ(echoes.echoOf(0), -1);
   EXPECT_EQ(echoes.echoOf(1), 0);
@@ -65,7 +65,7 @@ TEST_F(Echoes, GoToTheNearestOfSeveralReturns) {
 TEST_F(Echoes, FormTheNearestPairFirst) {
   PulseEchoes echoes(responses_, settings());
   // The first return lies between both echoes, 4 ns from either; the second one is on the first.
-  echoes.decompose(waveformOf({{400.0, 20.0}, {300.0, 28.1}}), {24000.0, 20000.0});
+  echoes.decompose(waveformWith({{400.0, 20.0}, {300.0, 28.1}}), {24000.0, 20000.0});
   ASSERT_EQ(echoes.count(), 2);
   EXPECT_EQ(echoes.echoOf(1), 0);
   EXPECT_EQ(echoes.echoOf(0), 1);
@@ -73,7 +73,7 @@ TEST_F(Echoes, FormTheNearestPairFirst) {
 
 TEST_F(Echoes, HaveAttributesInUnitsOfFiles) {
   PulseEchoes echoes(responses_, settings());
-  echoes.decompose(waveformOf({{400.0, 20.0}, {100.0, 40.0}}), {20000.0});
+  echoes.decompose(waveformWith({{400.0, 20.0}, {100.0, 40.0}}), {20000.0});
   ASSERT_EQ(echoes.count(), 2);
   const double speed = 1.5e-4;  // m / ps
   const EchoAttributes first = echoes.attributesOf(0, speed),

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using test::LasBytes;
 
 /// The waveform of a point of a file.
-Waveform waveformOf(const fs::path& path, std::uint64_t point) {
+Waveform waveformAt(const fs::path& path, std::uint64_t point) {
   const LasFile las(path);
   const WaveformSource source(las);
   WaveformReader reader(source);
@@ -30,7 +30,7 @@ Waveform waveformOf(const fs::path& path, std::uint64_t point) {
 }
 
 std::string faultOf(const fs::path& path, std::uint64_t point = 0) {
-  return test::messageOf<InputError>([&] { waveformOf(path, point); });
+  return test::messageOf<InputError>([&] { waveformAt(path, point); });
 }
 
 void expectPacket(const Waveform& waveform, unsigned packet) {
@@ -48,7 +48,7 @@ TEST_P(PointFormats, HavePacketsInAnotherFile) {
   rewriteLas(folder / "in.las", folder / "packed.laz", [](const LasRecordBlock&) {});
   for (const char* name : {"in.las", "packed.laz"})
     for (const unsigned point : {4U, 0U, 2U}) {
-      const Waveform waveform = waveformOf(folder / name, point);
+      const Waveform waveform = waveformAt(folder / name, point);
       expectPacket(waveform, point);
       EXPECT_EQ(waveform.reference.descriptor, 1U);
       EXPECT_EQ(waveform.reference.location_ps, 12.5F);
@@ -70,7 +70,7 @@ TEST_P(PointFormats, HavePacketsWithinTheFile) {
   test::writeBytes(folder / "in.las", bytes);
   rewriteLas(folder / "in.las", folder / "packed.laz", [](const LasRecordBlock&) {});
   for (const char* name : {"in.las", "packed.laz"})
-    for (const unsigned point : {3U, 1U}) expectPacket(waveformOf(folder / name, point), point);
+    for (const unsigned point : {3U, 1U}) expectPacket(waveformAt(folder / name, point), point);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PointFormats, testing::Values(4, 5, 9, 10));
@@ -81,7 +81,7 @@ TEST(WaveformReader, FindsPacketsInLas15) {
   las.minor = 5;
   test::writeBytes(folder / "in.las", las.str());
   test::writeBytes(folder / "in.wdp", test::packetRecord(5));
-  expectPacket(waveformOf(folder / "in.las", 2), 2);
+  expectPacket(waveformAt(folder / "in.las", 2), 2);
 }
 
 TEST(WaveformReader, FindsPacketsBehindFourGigabytes) {
@@ -97,14 +97,14 @@ TEST(WaveformReader, FindsPacketsBehindFourGigabytes) {
   test::writeBytes(folder / "out.las", bytes);
   test::writeBytes(folder / "out.wdp", test::packetRecord(1));
   place(folder / "out.wdp", far, test::packetPayload(3).substr(512));
-  expectPacket(waveformOf(folder / "out.las", 0), 2);
+  expectPacket(waveformAt(folder / "out.las", 0), 2);
 
   las.encoding = 1 | 2;
   bytes = las.str();
   test::put(bytes, 227, test::Bytes().u64(far).str());
   test::writeBytes(folder / "in.las", bytes);
   place(folder / "in.las", far, test::packetRecord(5));
-  expectPacket(waveformOf(folder / "in.las", 4), 4);
+  expectPacket(waveformAt(folder / "in.las", 4), 4);
 }
 
 TEST(WaveformReader, UsesTheDescriptorOfEachPoint) {
@@ -121,9 +121,9 @@ TEST(WaveformReader, UsesTheDescriptorOfEachPoint) {
   test::writeBytes(folder / "in.wdp",
                    LasBytes::evlr("LASF_Spec", 65535,
                                   test::Bytes().u8(9).u8(250).u16(1).u16(513).u16(65535).str()));
-  EXPECT_EQ(waveformOf(folder / "in.las", 0).counts, (std::vector<double>{1, 513, 65535}));
-  EXPECT_EQ(waveformOf(folder / "in.las", 0).descriptor.spacing_ps, 500U);
-  EXPECT_EQ(waveformOf(folder / "in.las", 1).counts, (std::vector<double>{9, 250}));
+  EXPECT_EQ(waveformAt(folder / "in.las", 0).counts, (std::vector<double>{1, 513, 65535}));
+  EXPECT_EQ(waveformAt(folder / "in.las", 0).descriptor.spacing_ps, 500U);
+  EXPECT_EQ(waveformAt(folder / "in.las", 1).counts, (std::vector<double>{9, 250}));
 
   const LasFile file(folder / "in.las");
   const WaveformSource source(file);
@@ -219,7 +219,7 @@ TEST(DamagedWaveforms, OfContradictoryDescriptorsAreRefused) {
   las.vlrs.push_back(las.vlrs[0]);
   test::writeBytes(folder / "in.wdp", test::packetRecord(5));
   test::writeBytes(folder / "in.las", las.str());
-  expectPacket(waveformOf(folder / "in.las", 1), 1);
+  expectPacket(waveformAt(folder / "in.las", 1), 1);
   las.vlrs[1] = test::descriptorVlr(1, test::descriptorBytes(16, 128));
   test::writeBytes(folder / "in.las", las.str());
   EXPECT_NE(faultOf(folder / "in.las").find("occurs twice"), std::string::npos);
