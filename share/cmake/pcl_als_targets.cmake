@@ -163,22 +163,3 @@ function(als_add_tests)
     endif()
   endforeach()
 endfunction()
-
-# als_add_test(NAME test_tin SOURCES … [MODULES …] [PRIVATE …]): a GoogleTest program of one module
-function(als_add_test)
-  cmake_parse_arguments(ARG "" "NAME" "SOURCES;MODULES;PRIVATE" ${ARGN})
-  _pcl_als_check_arguments(als_add_test "${ARG_UNPARSED_ARGUMENTS}")
-  add_executable(${ARG_NAME} ${ARG_SOURCES})
-  list(TRANSFORM ARG_MODULES PREPEND pcl_als::)
-  target_link_libraries(${ARG_NAME} PRIVATE ${ARG_MODULES} ${ARG_PRIVATE} GTest::gtest_main)
-  target_include_directories(${ARG_NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
-  target_compile_options(${ARG_NAME} PRIVATE ${PCL_ALS_TEST_OPTIONS})
-  als_precompile(${ARG_NAME} test)
-  target_compile_definitions(${ARG_NAME} PRIVATE
-    PCL_ALS_TEST_SCRATCH="${CMAKE_CURRENT_BINARY_DIR}/scratch"
-    PCL_ALS_TEST_DATA_DEFAULT="${PCL_ALS_TEST_DATA}")
-  add_test(NAME ${ARG_NAME} COMMAND ${ARG_NAME})
-  if(NOT ARG_NAME IN_LIST PCL_ALS_LONG_TESTS)
-    set_tests_properties(${ARG_NAME} PROPERTIES LABELS fast)
-  endif()
-endfunction()

@@ -49,8 +49,9 @@ void expectFile(const std::filesystem::path& name, const std::string& text) {
     writeFile(path, text);
   }
   ASSERT_TRUE(std::filesystem::exists(path)) << path;
-  EXPECT_TRUE(test::readBytes(path) == text)
-      << path << " is not that of the tables of fields: run PCL_ALS_UPDATE=1 test_result_schemas";
+  EXPECT_TRUE(test::readBytes(path) == text) << path
+                                             << " is not that of the tables of fields: run "
+                                                "PCL_ALS_UPDATE=1 report_tests test_result_schemas";
 }
 
 TEST(ResultSchemas, AreThoseOfTheFields) {

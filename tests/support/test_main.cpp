@@ -6,11 +6,16 @@
 //   io_tests test_control
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
 namespace {
+
+std::string nameOf(const testing::TestInfo& test) {
+  return std::string(test.test_suite_name()) + '.' + test.name();
+}
 
 /// Calls a function with every test of the program.
 template <typename Function>
@@ -22,16 +27,20 @@ void forEachTest(Function function) {
   }
 }
 
-/// A test of another file than test_X.cpp, which no test of ctest would run; empty if there is
-/// none.
-std::string misplacedTest() {
-  std::string found;
+/// What keeps the tests of a program from being selected by their sources; empty if nothing does: a
+/// test of another file than test_X.cpp, which no test of ctest would run, or two of one name,
+/// which those of both sources would run.
+std::string selectionProblem() {
+  std::string problem;
+  std::set<std::string> names;
   forEachTest([&](const testing::TestInfo& test) {
     const std::filesystem::path file = std::filesystem::path(test.file()).filename();
-    if (file.extension() == ".cpp" && file.string().rfind("test_", 0) == 0) return;
-    found = std::string(test.test_suite_name()) + '.' + test.name() + " is in " + file.string();
+    const std::string name = nameOf(test);
+    if (file.extension() != ".cpp" || file.string().rfind("test_", 0) != 0)
+      problem = name + " is in " + file.string() + "; tests belong into sources test_X.cpp";
+    if (!names.insert(name).second) problem = "two tests have the name " + name;
   });
-  return found;
+  return problem;
 }
 
 /// The filter that selects the tests of a source, which is given without folder and extension.
@@ -40,7 +49,7 @@ std::string filterOf(const std::string& source) {
   forEachTest([&](const testing::TestInfo& test) {
     if (std::filesystem::path(test.file()).stem() != source) return;
     if (!filter.empty()) filter += ':';
-    filter += std::string(test.test_suite_name()) + '.' + test.name();
+    filter += nameOf(test);
   });
   return filter;
 }
@@ -49,9 +58,9 @@ std::string filterOf(const std::string& source) {
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  const std::string misplaced = misplacedTest();
-  if (!misplaced.empty()) {
-    std::fprintf(stderr, "%s; tests belong into sources test_X.cpp\n", misplaced.c_str());
+  const std::string problem = selectionProblem();
+  if (!problem.empty()) {
+    std::fprintf(stderr, "%s: %s\n", argv[0], problem.c_str());
     return 1;
   }
   if (argc > 2) {
