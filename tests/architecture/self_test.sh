@@ -50,6 +50,8 @@ make_tree; printf '/* sharing\n sharing */ const char* s = "sharing";  // sharin
 make_tree; echo 'int x;' >modules/tin/src/a.cpp; expect 1 "no SPDX line"
 make_tree; printf '//\n%.0s' {1..400} >>modules/tin/src/a.cpp; expect 1 "more than 400"
 make_tree; cp modules/tin/src/a.cpp modules/tin/src/forgotten.cpp; expect 1 "is not listed"
+make_tree; cp modules/tin/src/a.cpp modules/tin/src/more_a.cpp; sed -i s/a.cpp/more_a.cpp/ modules/tin/CMakeLists.txt
+expect 1 "src/a.cpp: is not listed"
 make_tree; mkdir modules/extra; expect 1 "unknown module"
 make_tree; for i in {1..61}; do echo '// SPDX-License-Identifier: BSD-3-Clause' >modules/tin/include/pcl_als/x/h$i.h; done; expect 1 "installs 61 headers for users"
 make_tree; mkdir -p modules/tin/internal/pcl_als/tin; for i in {0..101}; do
