@@ -60,17 +60,18 @@ CommandLine commandLine() {
       "the receiver.",
       "IN OUT [options]", "pcl_als_waveform strip1.las echoes.laz -pulse_width 4.8");
   line.setArguments({{"", 1, 1, {".las", ".laz"}}});
-  line.addNumber(
-          "pulse_width",
-          "full width at half maximum of the response of the system to a point target, a "
-          "Gaussian (default: the mean of emitted pulses of a PulseWaves file, otherwise the "
-          "commonest width of single echoes)",
-          std::nullopt, {0.05, 1000.0, "ns"})
+  line.addNumber("pulse_width",
+                 "full width at half maximum of the response of the system to a point target, a "
+                 "Gaussian (default: the mean of emitted pulses of a PulseWaves file, otherwise "
+                 "the response is estimated from single echoes)",
+                 std::nullopt, {0.05, 1000.0, "ns"})
       .in(app::Group::inputs);
   line.addInputFile("pulse",
                     "the response by samples, such as the emitted pulse: CSV time_ns,value, evenly "
                     "spaced, with a baseline of zero");
   line.exclude({"pulse_width", "pulse"});
+  line.addOutputFile("pulse_output", "the response that was used, by samples that -pulse reads",
+                     {".csv"});
   line.addNumber("false_echoes", "expected number of false echoes in a waveform", 3e-4,
                  {1e-9, 0.1, ""});
   line.addNumber("ringing",
@@ -144,6 +145,9 @@ int waveform(const CommandLine& line) {
   const WaveformResult result = decomposeWaveforms(line.inputs().front(), line.output(),
                                                    settingsOf(line), app::progressOf(line));
   app::remarks(line, result.remarks);
+  if (line.has("pulse_output"))
+    writePulse(line.text("pulse_output"),
+               {result.pulse_spacing_ns, result.pulse_first_ns, result.pulse});
   if (!line.quiet()) std::cout << describe(result) << std::flush;
   return app::kDone;
 }

@@ -61,7 +61,16 @@ awk 'BEGIN { print "time_ns,value"; for (t = -10; t <= 10; t += 0.5) print t ","
 run simulate -output sampled "${small[@]}" -waveforms -pulse pulse.csv -noise realistic
 decomposed sampled/strip1.las sampled_echoes.las -pulse pulse.csv
 run simulate -output skewed "${small[@]}" -waveforms -pulse_skewness 0.6
-decomposed skewed/strip1.las skewed_echoes.las
+decomposed skewed/strip1.las skewed_echoes.las -pulse_output estimated.csv
+check "the shape is estimated" grep -Eq "skewness 0\.[4-7][0-9], from the samples of" counts.txt
+check "the maximum is at the time 0" awk -F, '$1 + 0 == 0 && $2 > 0.9999 && $2 < 1.0001 { top = 1 }
+  $2 > 1.0001 { exit 1 } END { exit !top }' <(sed 1d estimated.csv)
+cp counts.txt estimated.txt
+decomposed skewed/strip1.las again_echoes.las -pulse estimated.csv
+check "the pulse that was written is read" grep -q "as given" counts.txt
+check "and is the one that was used" awk '/ echoes: / { n[++k] = $1 }
+  END { exit !(k == 2 && (n[1] - n[2]) ^ 2 <= 4) }' estimated.txt counts.txt
+expect 1 "-pulse_output" waveform skewed/strip1.las x.las -pulse_output pulse.txt
 
 # Tools that rewrite the files keep their waveforms.
 expect 0 "" convert narrow/strip1.las copy.laz

@@ -100,9 +100,10 @@ TEST(PulseWavesJob, TakesTheResponseFromEmittedPulses) {
   simulated.make().write(folder / "in.pls");
   const WaveformResult by_emitted = decomposeWaveforms(folder / "in.pls", folder / "emitted.las");
   EXPECT_EQ(by_emitted.counts.echoes, 334U);
-  EXPECT_NEAR(by_emitted.pulse_width_ns.at(0).second, 4.5 * std::sqrt(2.0 * std::log(2.0)), 0.15);
+  EXPECT_NE(by_emitted.pulses.at(0).origin.find(" emitted pulses"), std::string::npos);
+  EXPECT_NEAR(by_emitted.pulses.at(0).width_ns, 4.5 * std::sqrt(2.0 * std::log(2.0)), 0.15);
   WaveformSettings gaussian;
-  gaussian.pulse_width_ns = by_emitted.pulse_width_ns.at(0).second;
+  gaussian.pulse_width_ns = by_emitted.pulses.at(0).width_ns;
   const WaveformResult by_width =
       decomposeWaveforms(folder / "in.pls", folder / "gaussian.las", gaussian);
   EXPECT_GT(by_width.counts.echoes, 345U);  // tails are taken for echoes

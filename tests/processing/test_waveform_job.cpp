@@ -55,7 +55,7 @@ TEST_P(WaveformJob, WritesEchoesAsPoints) {
   EXPECT_EQ(result.counts.single, 160U);
   EXPECT_NEAR(result.counts.meanOffset(), 0.0, 5.0);
   const double width = std::sqrt(test::kPulseWidth * test::kPulseWidth + 1.0 / 12.0) * 2.35482;
-  EXPECT_NEAR(result.pulse_width_ns.front().second, width, 0.05);
+  EXPECT_NEAR(result.pulses.front().width_ns, width, 0.05);
 
   const Output points(out);
   ASSERT_EQ(points.las.header().point_count, 240U);

@@ -123,7 +123,8 @@ TEST(PulseResponses, HaveTheGivenWidthInSamples) {
   settings.pulse_width_ns = 4.7096400900618985;
   WaveformDescriptor one, two;
   two.spacing_ps = 500;
-  const auto responses = pulseResponses({{1, one}, {2, two}}, settings, 0, {}, "file");
+  const auto responses =
+      pulseResponses({{1, one}, {2, two}}, settings, 0, {}, "file").by_descriptor;
   EXPECT_NEAR(responses.at(1).width(), 2.0, 1e-12);
   EXPECT_NEAR(responses.at(2).width(), 4.0, 1e-12);
 }

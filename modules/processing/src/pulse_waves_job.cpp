@@ -11,6 +11,7 @@
 
 #include "block_decomposition.h"
 #include "pulse_points.h"
+#include "used_pulses.h"
 
 namespace pcl_als::detail {
 namespace {
@@ -113,23 +114,24 @@ EmittedTimes emittedTimes(const WavesFile& waves, const EmittedPulses& emitted,
   return times;
 }
 
+/// As given, from emitted pulses, or from single echoes; described in the result.
 std::map<unsigned, PulseResponse> responsesOf(const WavesFile& waves,
                                               const WaveformSettings& settings,
                                               const EmittedPulses& emitted,
                                               const std::optional<EmittedPulse>& mean,
-                                              std::vector<std::string>& remarks) {
+                                              WaveformResult& result) {
   const PulseWavesFile& file = waves.pulses();
-  const auto estimate = [&](const EchoSettings& by) {
-    return pulseResponses(file.waveformDescriptors(), by, file.header().pulse_count, runsOf(waves),
-                          file.path().string());
-  };
-  if (settings.givesResponse() || !mean) return estimate(settings);
-  EchoSettings by_emitted = settings;
-  by_emitted.pulse = mean->samples;
-  by_emitted.pulse_spacing_ns = emitted.spacing_ns();
-  remarks.push_back("the response is the mean of " + grouped(mean->pulses) + " emitted pulses, " +
-                    numberText(mean->width * emitted.spacing_ns(), 2) + " ns wide");
-  return estimate(by_emitted);
+  EchoSettings by = settings;
+  std::string origin = "as given";
+  if (!settings.givesResponse() && mean) {
+    by.pulse = mean->samples;
+    by.pulse_spacing_ns = emitted.spacing_ns();
+    origin = "the mean of " + counted(mean->pulses, "emitted pulse");
+  }
+  ResponseChoice choice = pulseResponses(file.waveformDescriptors(), by, file.header().pulse_count,
+                                         runsOf(waves), file.path().string());
+  describePulses(choice, file.waveformDescriptors(), origin, result);
+  return std::move(choice.by_descriptor);
 }
 
 void addRemarks(const PulseWavesFile& file, std::vector<std::string>& remarks) {
@@ -164,12 +166,8 @@ WaveformResult decomposePulses(const std::filesystem::path& input,
   const EmittedTimes times =
       emittedTimes(waves, emitted, mean, settings.range_from, result.remarks);
   const std::map<unsigned, PulseResponse> responses =
-      responsesOf(waves, settings, emitted, mean, result.remarks);
-  for (const auto& [index, response] : responses)
-    result.pulse_width_ns.emplace_back(index, response.width() * kFwhmOfGaussian *
-                                                  file.waveformDescriptors().at(index).spacing_ps /
-                                                  kPicosecondsPerNanosecond);
-  progress.end(numberText(result.pulse_width_ns.front().second, 2) + " ns wide");
+      responsesOf(waves, settings, emitted, mean, result);
+  progress.end(numberText(result.pulses.front().width_ns, 2) + " ns wide");
   progress.begin("Decomposing waveforms");
   LasWriter writer(output, pointsOfPulses(file));
   const PulseJob job{waves, settings, responses, times, writer};

@@ -10,14 +10,14 @@
 #include "block_decomposition.h"
 #include "echo_cross_sections.h"
 #include "pulse_waves_job.h"
+#include "used_pulses.h"
 #include "waveform_echoes.h"
 #include "waveform_pulses.h"
 
 namespace pcl_als {
 namespace {
 
-std::map<unsigned, PulseResponse> responsesOf(const WaveformSource& source,
-                                              const WaveformSettings& settings) {
+ResponseChoice responsesOf(const WaveformSource& source, const WaveformSettings& settings) {
   const LasFile& las = source.las();
   const std::size_t length = las.header().record_length;
   std::vector<std::byte> records;
@@ -64,19 +64,17 @@ WaveformResult decomposePoints(const std::filesystem::path& input,
   if (settings.cross_sections.trajectory) sections.emplace(las, settings.cross_sections);
   progress.begin("Estimating the pulse");
   WaveformResult result;
+  ResponseChoice responses = responsesOf(source, settings);
+  detail::describePulses(responses, source.descriptors(), "as given", result);
   const detail::EchoCrossSections* const of_echoes = sections ? &*sections : nullptr;
   const detail::EchoJob job{las,
                             source,
                             settings,
-                            responsesOf(source, settings),
+                            std::move(responses.by_descriptor),
                             detail::EchoFields(las, of_echoes),
                             las.toMetres(),
                             of_echoes};
-  for (const auto& [index, response] : job.responses)
-    result.pulse_width_ns.emplace_back(index, response.width() * kFwhmOfGaussian *
-                                                  source.descriptors().at(index).spacing_ps /
-                                                  kPicosecondsPerNanosecond);
-  progress.end(numberText(result.pulse_width_ns.front().second, 2) + " ns wide");
+  progress.end(numberText(result.pulses.front().width_ns, 2) + " ns wide");
   if (sections) {
     progress.begin("Calibrating cross sections");
     sections->calibrate(source, job.responses, settings);
@@ -156,9 +154,10 @@ std::string describeSections(const CrossSectionResult& sections, const WaveformC
 std::string describe(const WaveformResult& result) {
   const WaveformCounts& c = result.counts;
   std::string text;
-  for (const auto& [index, width] : result.pulse_width_ns)
-    text += "descriptor " + std::to_string(index) + ": pulse of " + numberText(width, 2) +
-            " ns (full width at half maximum)\n";
+  for (const UsedPulse& pulse : result.pulses)
+    text += "descriptor " + std::to_string(pulse.descriptor) + ": pulse of " +
+            numberText(pulse.width_ns, 2) + " ns (full width at half maximum), " + pulse.origin +
+            '\n';
   text += grouped(c.waveforms) + " waveforms, " + grouped(c.single) + " with a single echo, " +
           grouped(c.saturated) + " with saturated samples\n";
   if (c.pulses > 0)

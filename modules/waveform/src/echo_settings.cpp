@@ -5,23 +5,23 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/waveform/echo_settings.h>
-#include <pcl_als/waveform/pulse_width.h>
+#include <pcl_als/waveform/pulse_estimate.h>
 #include <pcl_als/waveform/waveform_reader.h>
 
 namespace pcl_als {
 namespace {
 
-/// Waveforms from which the width of the response is estimated, for each descriptor.
-constexpr std::size_t kWaveformsForWidth = 4000;
+/// Waveforms from which the response is estimated, for each descriptor.
+constexpr std::size_t kWaveformsForPulse = 10000;
 /// Runs of points that these are taken from, over the whole survey.
 constexpr std::uint64_t kRuns = 40;
 
 /// Takes waveforms from all over the survey, by descriptor.
-std::map<unsigned, PulseWidthEstimate> sampleWaveforms(const EchoSettings& settings,
-                                                       std::uint64_t points,
-                                                       const WaveformRunReader& read) {
-  const std::size_t run = std::min<std::uint64_t>(points, 1 + kWaveformsForWidth / kRuns);
-  std::map<unsigned, PulseWidthEstimate> estimates;
+std::map<unsigned, PulseEstimate> sampleWaveforms(const EchoSettings& settings,
+                                                  std::uint64_t points,
+                                                  const WaveformRunReader& read) {
+  const std::size_t run = std::min<std::uint64_t>(points, 1 + kWaveformsForPulse / kRuns);
+  std::map<unsigned, PulseEstimate> estimates;
   std::uint64_t behind = 0;  // the last run
   for (std::uint64_t k = 0; k < kRuns && points > 0; ++k) {
     const std::uint64_t first = std::max(behind, k * (points - run) / kRuns);
@@ -66,35 +66,36 @@ DecompositionSettings EchoSettings::decompositionOf(const WaveformDescriptor& de
   return settings;
 }
 
-std::map<unsigned, PulseResponse> pulseResponses(
-    const std::map<unsigned, WaveformDescriptor>& descriptors, const EchoSettings& settings,
-    std::uint64_t points, const WaveformRunReader& read, const std::string& name) {
-  std::map<unsigned, PulseResponse> responses;
+ResponseChoice pulseResponses(const std::map<unsigned, WaveformDescriptor>& descriptors,
+                              const EchoSettings& settings, std::uint64_t points,
+                              const WaveformRunReader& read, const std::string& name) {
+  ResponseChoice choice;
   if (settings.givesResponse()) {
-    for (const auto& [index, d] : descriptors) responses.emplace(index, givenResponse(settings, d));
-    return responses;
+    for (const auto& [index, d] : descriptors)
+      choice.by_descriptor.emplace(index, givenResponse(settings, d));
+    return choice;
   }
-  std::map<unsigned, double> width_ns;
-  double usual_ns = 0.0;
   std::size_t most = 0;
-  for (const auto& [index, estimate] : sampleWaveforms(settings, points, read)) {
-    const std::optional<double> width = estimate.width();
-    if (!width) continue;
-    width_ns[index] = *width * descriptors.at(index).spacing_ps / kPicosecondsPerNanosecond;
-    if (estimate.waveforms() > most) usual_ns = width_ns[index];
-    most = std::max(most, estimate.waveforms());
+  for (const auto& [index, waveforms] : sampleWaveforms(settings, points, read)) {
+    std::optional<EstimatedPulse> pulse = waveforms.estimate();
+    if (!pulse) continue;
+    choice.estimates.emplace(index, std::move(*pulse));
+    if (waveforms.waveforms() > most) choice.usual = index;
+    most = std::max(most, waveforms.waveforms());
   }
-  if (width_ns.empty())
+  if (choice.estimates.empty())
     throw InputError(name +
                      ": too few waveforms have a single strong echo to estimate the width of "
                      "the pulse; state it");
+  const PulseResponse& usual = choice.estimates.at(choice.usual).response;
   for (const auto& [index, d] : descriptors) {
-    const auto own = width_ns.find(index);
-    const double ns = own == width_ns.end() ? usual_ns : own->second;
-    responses.emplace(index,
-                      PulseResponse::gaussian(ns * kPicosecondsPerNanosecond / d.spacing_ps));
+    const auto own = choice.estimates.find(index);
+    const double ratio = static_cast<double>(descriptors.at(choice.usual).spacing_ps) /
+                         static_cast<double>(d.spacing_ps);
+    choice.by_descriptor.emplace(
+        index, own == choice.estimates.end() ? usual.stretched(ratio) : own->second.response);
   }
-  return responses;
+  return choice;
 }
 
 }  // namespace pcl_als

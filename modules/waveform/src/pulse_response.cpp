@@ -18,6 +18,9 @@ constexpr double kNarrowest = 0.5, kWidest = 10.0;
 /// No echo is narrower than this, in samples: its samples would not determine it.
 constexpr double kLeastSamples = 0.3;
 
+/// Samples of a response in its width.
+constexpr int kSamplesOfWidth = 4;
+
 /// The Gaussian by a recurrence over the samples: the ratio of neighbours is itself a geometric
 /// sequence, so that three exponentials serve all samples.
 void evaluateGaussian(double time, double width, int first, int last, double* value,
@@ -42,6 +45,21 @@ void evaluateGaussian(double time, double width, int first, int last, double* va
 }
 
 }  // namespace
+
+double ResponseSamples::skewness() const {
+  double sum = 0.0, mean = 0.0, variance = 0.0, third = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += values[i];
+    mean += values[i] * timeOf(i);
+  }
+  mean /= sum;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double t = timeOf(i) - mean;
+    variance += values[i] * t * t / sum;
+    third += values[i] * t * t * t / sum;
+  }
+  return third / std::pow(variance, 1.5);
+}
 
 struct PulseResponse::Table : detail::PulseTable {
   using detail::PulseTable::PulseTable;
@@ -72,6 +90,29 @@ double PulseResponse::before(double width) const {
 
 double PulseResponse::after(double width) const {
   return table_ ? table_->after(width) : kGaussianReach * width;
+}
+
+double PulseResponse::valueAt(double time) const {
+  if (time < -before(width_) || time > after(width_)) return 0.0;
+  double value = 0.0, by_time = 0.0, by_width = 0.0;
+  evaluate(-time, width_, 0, 1, &value, &by_time, &by_width);
+  return value;
+}
+
+ResponseSamples PulseResponse::samples() const {
+  ResponseSamples samples;
+  samples.spacing = width_ / kSamplesOfWidth;
+  samples.first = -static_cast<int>(std::ceil(before(width_) / samples.spacing));
+  const int last = static_cast<int>(std::ceil(after(width_) / samples.spacing));
+  for (int i = samples.first; i <= last; ++i)
+    samples.values.push_back(valueAt(samples.spacing * i));
+  return samples;
+}
+
+PulseResponse PulseResponse::stretched(double ratio) const {
+  if (isGaussian()) return gaussian(ratio * width_);
+  const ResponseSamples own = samples();
+  return sampled(own.values, ratio * own.spacing);
 }
 
 void PulseResponse::evaluate(double time, double width, int first, int last, double* value,

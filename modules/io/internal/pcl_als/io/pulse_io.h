@@ -10,6 +10,7 @@ namespace pcl_als {
 /// Samples of the pulse of a laser as its receiver records it.
 struct PulseSamples {
   double spacing_ns = 0.0;
+  double first_ns = 0.0;  ///< time of the first value
   std::vector<double> values;
 };
 
@@ -18,5 +19,7 @@ struct PulseSamples {
  * InputError for fewer than five samples and for times that are not evenly spaced and growing.
  */
 PulseSamples readPulse(const std::filesystem::path& path);
+/// Writes what readPulse() reads; InputError if the file cannot be written.
+void writePulse(const std::filesystem::path& path, const PulseSamples& pulse);
 
 }  // namespace pcl_als

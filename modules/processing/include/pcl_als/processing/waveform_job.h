@@ -81,10 +81,20 @@ struct WaveformCounts {
   }
 };
 
+/// The response that was used for the waveforms of a descriptor.
+struct UsedPulse {
+  unsigned descriptor = 0;
+  double width_ns = 0.0;  ///< full width at half maximum
+  std::string origin;     ///< its shape and where it is from, as text
+};
+
 struct WaveformResult {
   WaveformCounts counts;
-  /// Of the response that was used, nanoseconds, by descriptor index.
-  std::vector<std::pair<unsigned, double>> pulse_width_ns;
+  std::vector<UsedPulse> pulses;
+  /// Samples of the response of the descriptor with most waveforms, of any if it was given; the
+  /// time 0 is that of the maximum, which is the time of an echo.
+  std::vector<double> pulse;
+  double pulse_spacing_ns = 0.0, pulse_first_ns = 0.0;  ///< and the time of the first sample
   std::optional<CrossSectionResult> cross_sections;
   std::vector<std::string> remarks;
 };

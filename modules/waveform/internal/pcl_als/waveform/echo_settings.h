@@ -20,8 +20,8 @@ inline constexpr double kPicosecondsPerNanosecond = 1000.0;
 
 /// Response of the system, and what is accepted as an echo, for waveforms of any spacing.
 struct EchoSettings {
-  /// Full width at half maximum of the response, nanoseconds; 0: from the waveforms
-  /// (PulseWidthEstimate).
+  /// Full width at half maximum of the response, a Gaussian, nanoseconds; 0: the response is
+  /// estimated from the waveforms (PulseEstimate).
   double pulse_width_ns = 0.0;
   /// Samples of the response in place of a Gaussian, with their spacing in nanoseconds.
   std::vector<double> pulse;
@@ -47,17 +47,25 @@ struct EchoSettings {
 using WaveformRunReader = std::function<void(std::uint64_t first, std::size_t count,
                                              const std::function<void(const Waveform&)>& take)>;
 
-/** \brief Response by descriptor index, as given or from the commonest width of single echoes.
+/// The response that is used, and what is known of it.
+struct ResponseChoice {
+  std::map<unsigned, PulseResponse> by_descriptor;
+  /// By descriptor with enough waveforms; empty if the response was given.
+  std::map<unsigned, EstimatedPulse> estimates;
+  unsigned usual = 0;  ///< the descriptor of most waveforms that has an estimate
+};
+
+/** \brief Responses as given, or estimated from single echoes.
  *
- * The width in nanoseconds of the descriptor with most waveforms serves for descriptors with too
+ * The response in nanoseconds of the descriptor with most waveforms serves for descriptors with too
  * few of them.
  * \param points number of points
  * \param read reads runs of them all over the survey, if the response is not given
  * \param name of the file, for messages
  * InputError "NAME: …" if the width cannot be estimated.
  */
-std::map<unsigned, PulseResponse> pulseResponses(
-    const std::map<unsigned, WaveformDescriptor>& descriptors, const EchoSettings& settings,
-    std::uint64_t points, const WaveformRunReader& read, const std::string& name);
+ResponseChoice pulseResponses(const std::map<unsigned, WaveformDescriptor>& descriptors,
+                              const EchoSettings& settings, std::uint64_t points,
+                              const WaveformRunReader& read, const std::string& name);
 
 }  // namespace pcl_als

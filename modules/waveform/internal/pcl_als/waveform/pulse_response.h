@@ -4,12 +4,24 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace pcl_als {
 
 /// Full width at half maximum of a Gaussian over its standard deviation, 2 sqrt(2 ln 2).
 inline constexpr double kFwhmOfGaussian = 2.3548200450309493;
+
+/// Samples of a response, with its maximum, 1, at the time 0.
+struct ResponseSamples {
+  std::vector<double> values;
+  double spacing = 0.0;  ///< samples of the waveform
+  int first = 0;         ///< of the values: its time is first * spacing
+
+  double timeOf(std::size_t i) const { return spacing * (first + static_cast<int>(i)); }
+  /// Third central moment over the third power of the standard deviation.
+  double skewness() const;
+};
 
 /** \brief The response of a system to a point target, and its convolution with the Gaussian spread
  * of an extended target.
@@ -43,6 +55,13 @@ class PulseResponse {
   double before(double width) const;
   double after(double width) const;
 
+  /// The response at a time from that of the echo, for the width u0; 0 outside its reach.
+  double valueAt(double time) const;
+  /// The response for the width u0, at a quarter of this width: sampled() makes it again.
+  ResponseSamples samples() const;
+  /// The same response where a sample of the waveform takes 1 / \a ratio of the time.
+  PulseResponse stretched(double ratio) const;
+
   /** \brief Response r of an echo at the samples first, first + 1, …, last - 1, and its
    * derivatives.
    *
@@ -60,5 +79,19 @@ class PulseResponse {
   double width_ = 0.0, least_ = 0.0, largest_ = 0.0;
   std::shared_ptr<const Table> table_;
 };
+
+/// A response that was estimated from waveforms (PulseEstimate).
+struct EstimatedPulse {
+  PulseResponse response;
+  /// Single echoes of the commonest width, from which the shape was or would be estimated.
+  std::size_t echoes = 0;
+  /// How much better the mean shape of one half of these echoes fits the other half than a Gaussian
+  /// does: mean of n ln(RSS of the Gaussian / RSS of the shape) over the echoes, each with n
+  /// samples, and its standard deviation. About the difference in chi-square. 0 for too few echoes.
+  double gain = 0.0, gain_std = 0.0;
+};
+
+/// The shape, and what it is from: "skewness 0.61, from 912 single echoes, …".
+std::string describe(const EstimatedPulse& pulse);
 
 }  // namespace pcl_als

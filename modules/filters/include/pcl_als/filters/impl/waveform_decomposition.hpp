@@ -63,7 +63,8 @@ std::map<unsigned, PulseResponse> WaveformDecomposition<PointT>::findResponses()
       if (access->read(i, waveform)) take(waveform);
   };
   auto responses = pulseResponses(waveforms_->descriptors(), settings_, waveforms_->size(), read,
-                                  waveforms_->name());
+                                  waveforms_->name())
+                       .by_descriptor;
   pulse_widths_.clear();
   for (const auto& [index, response] : responses)
     pulse_widths_[index] = response.width() * kFwhmOfGaussian *
