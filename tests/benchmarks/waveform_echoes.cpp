@@ -92,6 +92,16 @@ struct GroundFound {
   }
 };
 
+/// A pulse with a steep rise and a slow decay, 4 ns wide at half maximum.
+void setSkewedPulse(simulation::WaveformOptions& waveform) {
+  waveform.pulse_width = 4.0;
+  for (double t = -10.0; t <= 30.0; t += 0.5) {
+    const double sigma = t < 0.0 ? 1.2 : 2.2;
+    waveform.pulse.push_back(std::exp(-0.5 * t * t / (sigma * sigma)));
+  }
+  waveform.pulse_spacing = 0.5;
+}
+
 SimulationOptions oneLine(double height, double length, double density) {
   auto options = SimulationOptions::preset("small");
   simulation::PlannedLine line = options.lines.front();
@@ -112,25 +122,29 @@ struct ForestCounts {
   std::size_t pulses = 0, returns = 0, echoes = 0, unexplained = 0, misplaced = 0;
   std::size_t under = 0, open = 0, open_false = 0;
   GroundFound discrete, decomposed;
+  Deviations open_error, open_offset;  ///< of single echoes over their std; behind their return, m
 
   void add(const DecomposedPulse& p, double width,
            const std::function<double(const Backscatter&)>& countsOf);
-  void addOpen(const DecomposedPulse& p);
+  void addOpen(const DecomposedPulse& p, const Truth& truth);
   void print(const char* name) const;
 };
 
-void ForestCounts::addOpen(const DecomposedPulse& p) {
+void ForestCounts::addOpen(const DecomposedPulse& p, const Truth& truth) {
   const auto& parts = p.truth.backscatter;
   if (parts[p.pulse.part + p.pulse.parts - 1].range - parts[p.pulse.part].range > kOneSurface)
     return;
   ++open;
   open_false += p.echoes.size() - 1;
+  if (p.echoes.size() != 1 || p.returns.size() != 1 || std::isnan(p.echoes[0].amplitude)) return;
+  open_error.add((p.echoes[0].range - truth.range) / p.echoes[0].range_std);
+  open_offset.add(p.echoes[0].range - p.returns[0]);
 }
 
 void ForestCounts::add(const DecomposedPulse& p, double width,
                        const std::function<double(const Backscatter&)>& countsOf) {
   const Truth truth(p);
-  if (truth.vegetation_share == 0.0) addOpen(p);
+  if (truth.vegetation_share == 0.0) addOpen(p, truth);
   if (truth.vegetation_share < kVegetationShare) return;
   ++pulses;
   returns += p.returns.size();
@@ -166,6 +180,11 @@ void ForestCounts::print(const char* name) const {
       100.0 * share(misplaced, echoes), open, open_false);
   discrete.print("returns", under);
   decomposed.print("echoes", under);
+  std::printf(
+      "  single echoes: error over standard deviation, mean %+.3f, RMS %.3f; %+.2f mm behind the "
+      "return\n",
+      open_error.mean(), open_error.rms(), 1e3 * open_offset.mean());
+  std::fflush(stdout);
 }
 
 void forest(const char* name, const SimulationOptions& options, const std::filesystem::path& folder,
@@ -177,9 +196,11 @@ void forest(const char* name, const SimulationOptions& options, const std::files
     return counts_per_number * simulation::digitalNumber(gain, b.signal, b.range, extinction);
   };
   ForestCounts counts;
-  decomposeSimulated(options, folder, settings, [&](const DecomposedPulse& p) {
-    counts.add(p, options.waveform->pulse_width, countsOf);
-  });
+  const DecomposedStrip strip = decomposeSimulated(
+      options, folder, settings,
+      [&](const DecomposedPulse& p) { counts.add(p, options.waveform->pulse_width, countsOf); });
+  std::printf("%s: pulse of %.2f ns, %s\n", name, strip.result.pulses.front().width_ns,
+              strip.result.pulses.front().origin.c_str());
   counts.print(name);
 }
 
@@ -213,10 +234,15 @@ void slopes(const char* name, const SimulationOptions& options, const std::files
   }
 }
 
-void runForests(const std::filesystem::path& folder) {
+SimulationOptions forestOptions() {
   SimulationOptions options = oneLine(540.0, 300.0, 1.0);
   options.scene.trees = 4.0;
   options.scene.buildings = 0.0;
+  return options;
+}
+
+void runForests(const std::filesystem::path& folder) {
+  SimulationOptions options = forestOptions();
   forest("forest, 540 m, pulse of 4 ns", options, folder);
   options.waveform->bits = 8;
   forest("the same with 8 bits", options, folder);
@@ -226,18 +252,35 @@ void runForests(const std::filesystem::path& folder) {
   options.waveform->noise = 0.001;
   options.waveform->pulse_width = 8.0;
   forest("the same with a pulse of 8 ns", options, folder);
-  // A pulse with a steep rise and a slow decay, 4 ns wide at half maximum.
-  options.waveform->pulse_width = 4.0;
-  for (double t = -10.0; t <= 30.0; t += 0.5) {
-    const double sigma = t < 0.0 ? 1.2 : 2.2;
-    options.waveform->pulse.push_back(std::exp(-0.5 * t * t / (sigma * sigma)));
-  }
-  options.waveform->pulse_spacing = 0.5;
+  setSkewedPulse(*options.waveform);
   WaveformSettings sampled;
   sampled.pulse = options.waveform->pulse;
-  sampled.pulse_spacing_ns = 0.5;
+  sampled.pulse_spacing_ns = options.waveform->pulse_spacing;
   forest("skewed pulse, which the decomposition knows", options, folder, sampled);
-  forest("skewed pulse, taken for a Gaussian", options, folder);
+  forest("skewed pulse, estimated", options, folder);
+  WaveformSettings gaussian;
+  gaussian.pulse_width_ns = options.waveform->pulse_width;
+  forest("skewed pulse, taken for a Gaussian", options, folder, gaussian);
+}
+
+/// Estimated responses of pulses of several shapes, digitizers and seeds.
+void runShapes(const std::filesystem::path& folder) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SimulationOptions options = forestOptions();
+    options.seed = seed;
+    std::printf("seed %d\n", static_cast<int>(seed));
+    forest("Gaussian pulse", options, folder);
+    options.waveform->pulse_skewness = 0.6;
+    forest("skewness of 0.6", options, folder);
+    options.waveform->bits = 8;
+    forest("skewness of 0.6, 8 bits", options, folder);
+    options.waveform->bits = 12;
+    options.waveform->noise = 0.004;
+    forest("skewness of 0.6, four times the noise", options, folder);
+    options.waveform->noise = 0.001;
+    options.waveform->pulse_width = 2.0;
+    forest("skewness of 0.6, pulse of 2 ns", options, folder);
+  }
 }
 
 void runSlopes(const std::filesystem::path& folder) {
@@ -258,11 +301,12 @@ void runSlopes(const std::filesystem::path& folder) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fputs("waveform_echoes FOLDER [forest|slopes]\n", stderr);
+    std::fputs("waveform_echoes FOLDER [forest|slopes|shapes]\n", stderr);
     return 1;
   }
   const std::string part = argc > 2 ? argv[2] : "";
-  if (part != "slopes") runForests(argv[1]);
-  if (part != "forest") runSlopes(argv[1]);
+  if (part.empty() || part == "forest") runForests(argv[1]);
+  if (part.empty() || part == "slopes") runSlopes(argv[1]);
+  if (part.empty() || part == "shapes") runShapes(argv[1]);
   return 0;
 }

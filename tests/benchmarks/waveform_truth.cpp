@@ -20,6 +20,7 @@ class EchoReader {
   explicit EchoReader(const LasFile& las) : las_(las), length_(las.header().record_length) {
     amplitude_ = positionOf("amplitude");
     width_ = positionOf("echo_width");
+    range_std_ = positionOf("range_std");
     new_ = positionOf("new_echo");
   }
 
@@ -36,6 +37,7 @@ class EchoReader {
       echoes.push_back({0.5 * simulation::kLightSpeed * ns,
                         static_cast<double>(loadLas<float>(record + amplitude_)),
                         static_cast<double>(loadLas<float>(record + width_)),
+                        static_cast<double>(loadLas<float>(record + range_std_)),
                         loadLas<std::uint8_t>(record + new_) != 0});
       ++at_;
       record = peek();
@@ -62,7 +64,7 @@ class EchoReader {
   }
 
   const LasFile& las_;
-  std::size_t length_, amplitude_ = 0, width_ = 0, new_ = 0;
+  std::size_t length_, amplitude_ = 0, width_ = 0, range_std_ = 0, new_ = 0;
   std::vector<std::byte> records_;
   std::uint64_t at_ = 0, begin_ = 0, end_ = 0;
 };

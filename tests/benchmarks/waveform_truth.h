@@ -16,6 +16,7 @@ struct FoundEcho {
   double range = 0.0;      ///< metres from the firing point
   double amplitude = 0.0;  ///< digitizer counts; of returns without an echo NaN
   double width = 0.0;      ///< full width at half maximum, nanoseconds
+  double range_std = 0.0;  ///< metres
   bool is_new = false;     ///< no return of the detector
 };
 
