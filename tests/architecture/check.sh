@@ -201,6 +201,11 @@ done < <(find . -name '*.md' -not -path './.git/*' -not -path './build*' \
   -not -path './pcl_als_demo/*' -exec \
   awk '{ gsub(/[\200-\277]/, "") } length($0) > 99 && !/^\|/ { print FILENAME ":" FNR }' {} +)
 
+# What a merge leaves where two changes meet.
+while IFS= read -r place; do
+  breach "$place" "is a mark of an unfinished merge"
+done < <(grep -rnIoE --exclude-dir=.git --exclude-dir='build*' --exclude-dir=pcl_als_demo '^(<{7}|>{7}) ' .)
+
 # A file that no CMakeLists.txt lists is not built.
 declare -A lists
 while IFS= read -r file; do

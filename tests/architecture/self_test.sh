@@ -48,6 +48,7 @@ make_tree; echo 'const char* s = "from 1 -", *t = "x" /* -y */;  // "-crs"' >>mo
 make_tree; echo 'int whole = sharing;' >>modules/tin/src/a.cpp; expect 1 "uses the name sharing instead of variance_inflation"
 make_tree; printf '/* sharing\n sharing */ const char* s = "sharing";  // sharing\n' >>modules/tin/src/a.cpp; expect 0 "keep to"
 make_tree; echo 'int x;' >modules/tin/src/a.cpp; expect 1 "no SPDX line"
+make_tree; printf '%.0s<' {1..7} >>modules/tin/README.md; echo ' HEAD' >>modules/tin/README.md; expect 1 "unfinished merge"
 make_tree; printf '//\n%.0s' {1..400} >>modules/tin/src/a.cpp; expect 1 "more than 400"
 make_tree; cp modules/tin/src/a.cpp modules/tin/src/forgotten.cpp; expect 1 "is not listed"
 make_tree; cp modules/tin/src/a.cpp modules/tin/src/more_a.cpp; sed -i s/a.cpp/more_a.cpp/ modules/tin/CMakeLists.txt

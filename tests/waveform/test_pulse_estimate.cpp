@@ -51,7 +51,7 @@ double gaussian(double t, double width) {
   return std::exp(-0.5 * t * t / (width * width));
 }
 /// Rises with 0.6 of the width, and decays with 1.4 of it.
-TruePulse skewedPulse(double width) {
+TruePulse steepPulse(double width) {
   return TruePulse([width](double t) { return gaussian(t, t < 0.0 ? 0.6 * width : 1.4 * width); });
 }
 
@@ -169,7 +169,7 @@ TEST_P(PulseEstimateOfSeeds, GiveTheShapeFromEightBits) {
 }
 
 TEST_P(PulseEstimateOfSeeds, ResolveAPulseWhoseCurvatureJumps) {
-  const TruePulse truth = skewedPulse(2.0);
+  const TruePulse truth = steepPulse(2.0);
   const EstimatedPulse pulse = estimateOf(waveformsOf(truth, GetParam(), 2000));
   EXPECT_LT(largestDifference(pulse.response, truth), 5e-3);
 }
