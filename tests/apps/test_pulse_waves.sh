@@ -31,6 +31,7 @@ expect 2 "copy.pls: pulse *: its waves at byte * reach past the end of copy.wvs"
 mv copy.wvs copy.wvz
 expect 2 "copy.wvz: compressed waves cannot be read; decompress them to copy.wvs" waveform copy.pls x.laz
 rm copy.wvz
-expect 2 "copy.pls: its waves are in copy.wvs, which is missing beside it" info copy.pls
+expect 2 "copy.pls: its waves are in copy.wvs, which is missing beside it" waveform copy.pls x.laz
+expect 0 "200 pulses*scanner 1*! copy.pls: its waves are in copy.wvs, which is missing beside it" info copy.pls
 absent x.laz x.json
 finish

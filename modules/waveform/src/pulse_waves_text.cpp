@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/waveform/pulse_waves_reader.h>
 
@@ -33,10 +34,15 @@ std::string scannerText(unsigned index, const PulseScanner& s) {
 }
 
 /// InputError if the Waves file cannot be read.
+/// A file without its waves can still be described.
 std::string wavesText(const PulseWavesFile& file) {
-  const WavesFile waves(file);
-  return "waveforms in " + std::filesystem::path(waves.name()).filename().string() + ", " +
-         grouped(waves.size()) + " bytes";
+  try {
+    const WavesFile waves(file);
+    return "waveforms in " + std::filesystem::path(waves.name()).filename().string() + ", " +
+           grouped(waves.size()) + " bytes";
+  } catch (const InputError& error) {
+    return std::string("! ") + error.what();
+  }
 }
 
 }  // namespace
