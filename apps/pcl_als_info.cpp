@@ -90,13 +90,12 @@ void addWaveforms(const CommandLine& line, DatasetInventory& survey) {
 std::vector<std::string> describePulseFiles(const CommandLine& line) {
   std::vector<std::string> others;
   for (const std::string& input : line.inputs()) {
-    const std::string extension = lowerExtension(input);
-    if (extension != ".pls" && extension != ".plz") {
+    if (!isPulseFile(input)) {
       others.push_back(input);
       continue;
     }
     if (line.has("output"))
-      throw UsageError("-output lists points, and " + input + " has pulses; leave it out");
+      throw UsageError("-output lists points, and " + input + " has pulses; omit it");
     const std::vector<std::string> texts = describePulseWaves(PulseWavesFile(input));
     if (line.quiet()) continue;
     std::cout << '\n' << input << '\n';

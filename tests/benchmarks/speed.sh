@@ -5,7 +5,7 @@
 # speed.sh BEFORE AFTER BLOCK… [ROUNDS=3, THREADS=1 in the environment]: user time and memory of the main tools of two
 # installations or build folders (with bin and lib inside), run in turn: a release against the last one. A block is a folder
 # with point files (.las, .laz), and with trajectory.csv and control.csv where it has them; without a trajectory, calibrate,
-# apply and intensity are left out. Medians of the rounds; apply also against cp of the same files. A tool that fails ends
+# apply and intensity are not run. Medians of the rounds; apply also against cp of the same files. A tool that fails ends
 # the run with its messages.
 set -euo pipefail
 export LC_ALL=C

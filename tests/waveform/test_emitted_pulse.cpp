@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/waveform/emitted_pulse.h>
+#include <pcl_als/waveform/pulse_response.h>
 
 namespace pcl_als {
 namespace {
@@ -41,7 +42,8 @@ TEST(EmittedPulse, MeanHasTheShapeOfThePulses) {
   ASSERT_TRUE(pulse);
   EXPECT_EQ(pulse->pulses, 2000U);
   EXPECT_NEAR(pulse->peak, 15.0 + 0.37 * 5.0 + kMaximum, 0.06);
-  EXPECT_NEAR(pulse->width, (1.6 + 2.4) * std::sqrt(2.0 * std::log(2.0)), 0.06);
+  const double width = kFwhmOfGaussian * PulseResponse::sampled(pulse->samples, 1.0).width();
+  EXPECT_NEAR(width, (1.6 + 2.4) * std::sqrt(2.0 * std::log(2.0)), 0.06);
   const auto top = static_cast<int>(std::max_element(pulse->samples.begin(), pulse->samples.end()) -
                                     pulse->samples.begin());
   for (int i = 0; i < static_cast<int>(pulse->samples.size()); ++i)

@@ -75,14 +75,21 @@ Corrections BlockSolution::corrections(const ErrorSourceVector& held_sources) co
   return corrections;
 }
 
-void weigh(const PairSet& pairs, bool reject, int threads, BlockSolution& solution) {
-  PairWeights::Residuals residuals(pairs.observations.size());
+PairWeights::Residuals pairResiduals(const std::vector<AreaObservations>& observations,
+                                     const Adjustment& adjustment,
+                                     const AdjustmentSolution& solution, int threads) {
+  PairWeights::Residuals residuals(observations.size());
   parallelFor(residuals.size(), threads, [&](std::size_t area) {
-    residuals[area].reserve(pairs.observations[area].size());
-    for (const PairObservation& o : pairs.observations[area])
-      residuals[area].emplace_back(o,
-                                   solution.adjustment.residual(o, solution.solution()) - o.offset);
+    residuals[area].reserve(observations[area].size());
+    for (const PairObservation& o : observations[area])
+      residuals[area].emplace_back(o, adjustment.residual(o, solution) - o.offset);
   });
+  return residuals;
+}
+
+void weigh(const PairSet& pairs, bool reject, int threads, BlockSolution& solution) {
+  const PairWeights::Residuals residuals =
+      pairResiduals(pairs.observations, solution.adjustment, solution.solution(), threads);
   // A selection is not representative: it consists mostly of slopes far from the flight line.
   if (!pairs.rules.selected) solution.weights.findScales(residuals, threads);
   solution.weights.update(residuals, reject, threads);

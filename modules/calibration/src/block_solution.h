@@ -43,6 +43,11 @@ struct ChoiceRules {
   std::map<SystemParameter, std::string> excluded;
 };
 
+/// Residuals of the pairs after a solution, by area.
+PairWeights::Residuals pairResiduals(const std::vector<AreaObservations>& observations,
+                                     const Adjustment& adjustment,
+                                     const AdjustmentSolution& solution, int threads);
+
 /// Robust weights from the residuals. \a reject: whether outliers lose their weight; not while
 /// residuals contain the effect of the biases.
 void weigh(const PairSet& pairs, bool reject, int threads, BlockSolution& solution);

@@ -10,8 +10,8 @@
 #include <numeric>
 #include <utility>
 
+#include "block_solution.h"
 #include "error_diagnosis.h"
-#include "pair_weights.h"
 
 namespace pcl_als {
 namespace {
@@ -187,10 +187,8 @@ bool weighWithDifferences(const std::vector<StripGroup>& groups, const Parameter
   PairWeights weights;
   AdjustmentSolution solution = choice.solution;
   for (int i = 0; i < kWeightings; ++i) {
-    PairWeights::Residuals residuals(observations.size());
-    for (std::size_t area = 0; area < observations.size(); ++area)
-      for (const PairObservation& o : observations[area])
-        residuals[area].emplace_back(o, adjustment.residual(o, solution) - o.offset);
+    const PairWeights::Residuals residuals =
+        pairResiduals(observations, adjustment, solution, threads);
     weights.findScales(residuals, threads);
     weights.update(residuals, i > 0, threads);
     adjustment.accumulate(observations, weights.weights());

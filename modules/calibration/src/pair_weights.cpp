@@ -24,7 +24,7 @@ bool isOfPlan(const PairWeights::Group& group) {
   return group.first == PairObservation::kControl && group.second == group.first - kPlan;
 }
 
-using Values = std::vector<PairResidual>;
+using Values = std::vector<const PairResidual*>;
 
 Values thinned(const Values& values, std::size_t every) {
   Values kept;
@@ -38,8 +38,8 @@ double scatterOf(const Values& values, const VarianceParts& factors) {
   if (values.size() < kEnoughForScale) return 1.0;
   std::vector<double> standardised;
   standardised.reserve(values.size());
-  for (const PairResidual& pair : values)
-    standardised.push_back(pair.residual / std::sqrt(factors.variance(pair)));
+  for (const PairResidual* pair : values)
+    standardised.push_back(pair->residual / std::sqrt(factors.variance(*pair)));
   return std::max(robustSigmaAboutZero(std::move(standardised)), kLeastScale);
 }
 
@@ -47,9 +47,9 @@ double scatterOf(const Values& values, const VarianceParts& factors) {
 double unlikeliness(const Values& values, const VarianceParts& factors) {
   const double scale = scatterOf(values, factors);
   double sum = 0.0;
-  for (const PairResidual& pair : values) {
-    const double variance = scale * scale * factors.variance(pair);
-    sum += 0.5 * std::log(variance) + huberLoss(pair.residual / std::sqrt(variance));
+  for (const PairResidual* pair : values) {
+    const double variance = scale * scale * factors.variance(*pair);
+    sum += 0.5 * std::log(variance) + huberLoss(pair->residual / std::sqrt(variance));
   }
   return sum;
 }
@@ -80,7 +80,7 @@ VarianceParts PairWeights::mostLikelyFactors(const std::map<Group, Values>& grou
   for (const auto& [group, values] : groups) {
     const std::size_t every = std::max<std::size_t>(1, values.size() / kSampledResiduals);
     samples.emplace_back(thinned(values, every), static_cast<double>(every));
-    for (const PairResidual& pair : values) with_echoes = with_echoes || pair.echo > 0.0;
+    for (const PairResidual* pair : values) with_echoes = with_echoes || pair->echo > 0.0;
   }
   const std::vector<VarianceParts> factors = candidateFactors(with_echoes);
   std::vector<double> costs(factors.size(), 0.0);
@@ -99,7 +99,7 @@ void PairWeights::findScales(const Residuals& residuals, int threads) {
     for (const PairResidual& pair : area) {
       if (current == groups.end() || current->first != pair.group)
         current = groups.try_emplace(pair.group).first;
-      current->second.push_back(pair);
+      current->second.push_back(&pair);
     }
   }
   factors_ = mostLikelyFactors(groups, threads);

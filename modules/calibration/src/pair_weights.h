@@ -75,7 +75,7 @@ class PairWeights {
   std::size_t kept() const { return kept_; }  ///< with a weight
 
  private:
-  using Values = std::vector<PairResidual>;  // of a group
+  using Values = std::vector<const PairResidual*>;  // of a group
   /// Of the pairs with a weight.
   struct Kept {
     double squares = 0.0;  ///< of residuals over the standard deviation of the noise model

@@ -17,8 +17,8 @@ namespace pcl_als::detail {
 namespace {
 
 constexpr std::uint64_t kPulsesTogether = std::uint64_t{1} << 15;
-/// Pulses whose emitted waveforms are averaged, and runs of them all over the file.
-constexpr std::uint64_t kEmittedPulses = 4000, kRuns = 40;
+/// Pulses whose emitted waveforms are averaged.
+constexpr std::uint64_t kEmittedPulses = 4000;
 
 void refuseWhatNeedsReturns(const std::filesystem::path& input, const WaveformSettings& settings) {
   const std::string name = input.string() + ": a Pulse file has pulses and no returns, ";
@@ -32,21 +32,17 @@ void refuseWhatNeedsReturns(const std::filesystem::path& input, const WaveformSe
 class EmittedPulses {
  public:
   EmittedPulses(const WavesFile& waves, const WaveformSettings& settings) {
-    const std::uint64_t all = waves.pulses().header().pulse_count;
-    const std::uint64_t run = std::min(all, 1 + kEmittedPulses / kRuns);
     PulseWavesReader reader(waves);
     std::vector<PulseRecord> pulses;
     std::vector<PulseSegment> segments;
-    std::uint64_t behind = 0;
-    for (std::uint64_t k = 0; k < kRuns && behind < all; ++k) {
-      const std::uint64_t first = std::max(behind, k * (all - run) / kRuns);
-      behind = std::min(all, first + run);
-      waves.pulses().read(first, behind - first, pulses);
+    const std::uint64_t all = waves.pulses().header().pulse_count;
+    visitRuns(all, kEmittedPulses, [&](std::uint64_t first, std::size_t count) {
+      waves.pulses().read(first, count, pulses);
       for (std::size_t i = 0; i < pulses.size(); ++i) {
         reader.read(pulses[i], first + i, segments);
         for (const PulseSegment& segment : segments) add(segment, settings);
       }
-    }
+    });
   }
 
   bool begins_are_stated() const { return begins_are_stated_; }

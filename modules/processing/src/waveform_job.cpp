@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/file_version.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/las/las_selection.h>
 #include <pcl_als/processing/waveform_job.h>
+#include <pcl_als/waveform/pulse_waves_file.h>
 
 #include "block_decomposition.h"
 #include "echo_cross_sections.h"
@@ -118,8 +118,7 @@ WaveformResult decomposeWaveforms(const std::filesystem::path& input,
   settings.check();
   const UnchangedInputs unchanged;
   ProgressReport progress(callback);
-  if (lowerExtension(input) == ".pls" || lowerExtension(input) == ".plz")
-    return detail::decomposePulses(input, output, settings, progress);
+  if (isPulseFile(input)) return detail::decomposePulses(input, output, settings, progress);
   if (settings.range_from != RangeOrigin::automatic)
     throw UsageError(input.string() +
                      ": only PulseWaves files have emitted pulses that ranges can be counted from");

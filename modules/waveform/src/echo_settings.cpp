@@ -13,21 +13,13 @@ namespace {
 
 /// Waveforms from which the response is estimated, for each descriptor.
 constexpr std::size_t kWaveformsForPulse = 10000;
-/// Runs of points that these are taken from, over the whole survey.
-constexpr std::uint64_t kRuns = 40;
 
 /// Takes waveforms from all over the survey, by descriptor.
 std::map<unsigned, PulseEstimate> sampleWaveforms(const EchoSettings& settings,
                                                   std::uint64_t points,
                                                   const WaveformRunReader& read) {
-  const std::size_t run = std::min<std::uint64_t>(points, 1 + kWaveformsForPulse / kRuns);
   std::map<unsigned, PulseEstimate> estimates;
-  std::uint64_t behind = 0;  // the last run
-  for (std::uint64_t k = 0; k < kRuns && points > 0; ++k) {
-    const std::uint64_t first = std::max(behind, k * (points - run) / kRuns);
-    const std::size_t count = std::min<std::uint64_t>(run, points - first);
-    if (count == 0) break;
-    behind = first + count;
+  visitRuns(points, kWaveformsForPulse, [&](std::uint64_t first, std::size_t count) {
     std::uint64_t last_offset = ~std::uint64_t{0};
     read(first, count, [&](const Waveform& waveform) {
       if (waveform.reference.byte_offset == last_offset) return;
@@ -35,7 +27,7 @@ std::map<unsigned, PulseEstimate> sampleWaveforms(const EchoSettings& settings,
       estimates[waveform.reference.descriptor].add(waveform.counts,
                                                    settings.saturationOf(waveform.descriptor));
     });
-  }
+  });
   return estimates;
 }
 
@@ -46,6 +38,18 @@ PulseResponse givenResponse(const EchoSettings& s, const WaveformDescriptor& d) 
 }
 
 }  // namespace
+
+void visitRuns(std::uint64_t all, std::uint64_t wanted,
+               const std::function<void(std::uint64_t first, std::size_t count)>& visit) {
+  constexpr std::uint64_t kRuns = 40;
+  const std::uint64_t run = std::min(all, 1 + wanted / kRuns);
+  std::uint64_t behind = 0;  // the last run
+  for (std::uint64_t k = 0; k < kRuns && behind < all; ++k) {
+    const std::uint64_t first = std::max(behind, k * (all - run) / kRuns);
+    behind = std::min(all, first + run);
+    visit(first, static_cast<std::size_t>(behind - first));
+  }
+}
 
 void EchoSettings::check() const {
   if (!(pulse_width_ns >= 0.0)) throw UsageError("the width of the pulse must not be negative");

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/waveform/emitted_pulse.h>
 
 namespace pcl_als {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 constexpr std::size_t kFewestSamples = 8, kMostSamples = 512;
 constexpr std::size_t kEnd = 3;          // samples that an end is judged by
 constexpr double kLargestEnd = 0.05;     // of the amplitude
@@ -33,18 +33,6 @@ double interpolated(const std::vector<double>& samples, double baseline, double 
     sum += (samples[i] - baseline) * (std::abs(x) < 1e-9 ? 1.0 : std::sin(x) / x);
   }
   return sum;
-}
-
-/// Where the values fall to half of the largest one, from it in one direction.
-double halfMaximum(const std::vector<double>& values, std::size_t top, int direction) {
-  const auto value = [&](std::ptrdiff_t i) { return values[static_cast<std::size_t>(i)]; };
-  auto i = static_cast<std::ptrdiff_t>(top);
-  const double half = 0.5 * values[top];
-  while (i > 0 && i + 1 < static_cast<std::ptrdiff_t>(values.size()) && value(i) > half)
-    i += direction;
-  const double inner = value(i - direction), outer = value(i);
-  if (!(inner > outer)) return static_cast<double>(i);
-  return static_cast<double>(i) - direction * (half - outer) / (inner - outer);
 }
 
 }  // namespace
@@ -88,7 +76,6 @@ std::optional<EmittedPulse> EmittedPulseMean::result() const {
       mean.samples.push_back(sum.value / static_cast<double>(sum.count));
   };
   for (auto sum = before_.rbegin(); sum != before_.rend(); ++sum) append(*sum);
-  const std::size_t top = mean.samples.size();
   for (const Sum& sum : after_) append(sum);
   if (pulses_ == 0 || mean.samples.size() < kFewestSamples) return std::nullopt;
   const double baseline = baselineOf(mean.samples);
@@ -97,7 +84,6 @@ std::optional<EmittedPulse> EmittedPulseMean::result() const {
                                meanOf(&mean.samples[mean.samples.size() - kEnd], kEnd));
   if (ends > kLargestEnd) return std::nullopt;
   mean.peak = sum_peak_ / static_cast<double>(pulses_);
-  mean.width = halfMaximum(mean.samples, top, 1) - halfMaximum(mean.samples, top, -1);
   return mean;
 }
 

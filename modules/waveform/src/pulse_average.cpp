@@ -55,16 +55,16 @@ class SplineFit {
     for (int round = 0; round < kRounds; ++round) {
       Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count_, count_);
       Eigen::VectorXd right = Eigen::VectorXd::Zero(count_);
-      limit_ = round == 0 ? 0.0 : kHuber * robustSigmaAboutZero(residuals());
-      for (const AlignedEcho& echo : echoes_) add(echo, normal, right);
+      if (round > 0) findResiduals();
+      for (std::size_t k = 0; k < echoes_.size(); ++k) add(k, normal, right);
       normal.diagonal().array() += kRidge * normal.diagonal().maxCoeff();
       solver_.compute(normal);
       coefficient_ = solver_.solve(right);
     }
+    findResiduals();
   }
 
   AveragedPulse pulse() const {
-    const double noise = robustSigmaAboutZero(residuals());
     const Eigen::MatrixXd cofactor = solver_.solve(Eigen::MatrixXd::Identity(count_, count_));
     AveragedPulse pulse;
     pulse.spacing = spacing_ * step_;
@@ -76,7 +76,7 @@ class SplineFit {
       if (!splinesAt(k * step_, at, spline)) continue;
       pulse.values.back() = spline.dot(coefficient_.segment<kSplines>(at));
       const double variance = spline.dot(cofactor.block<kSplines, kSplines>(at, at) * spline);
-      if (std::abs(pulse.values.back()) < kSignificant * noise * std::sqrt(variance)) continue;
+      if (std::abs(pulse.values.back()) < kSignificant * noise_ * std::sqrt(variance)) continue;
       if (from < 0) from = k;
       to = k;
     }
@@ -110,33 +110,37 @@ class SplineFit {
   }
 
   /// Residuals of a waveform, with the median as its baseline.
-  void residuals(const AlignedEcho& echo, std::vector<double>& result) const {
-    result.clear();
+  std::vector<double> residualsOf(const AlignedEcho& echo) const {
+    std::vector<double> result;
     for (std::size_t i = 0; i < echo.counts->size(); ++i)
       result.push_back((*echo.counts)[i] - responseAt(echo, i));
     std::vector<double> sorted = result;
     const double baseline = medianInPlace(sorted);
     for (double& value : result) value -= baseline;
+    return result;
   }
 
-  std::vector<double> residuals() const {
-    std::vector<double> all, own;
+  /// Residuals of all waveforms, and their standard deviation.
+  void findResiduals() {
+    residuals_.clear();
+    std::vector<double> all;
     for (const AlignedEcho& echo : echoes_) {
-      residuals(echo, own);
-      all.insert(all.end(), own.begin(), own.end());
+      residuals_.push_back(residualsOf(echo));
+      all.insert(all.end(), residuals_.back().begin(), residuals_.back().end());
     }
-    return all;
+    noise_ = robustSigmaAboutZero(std::move(all));
   }
 
   /// Adds a waveform to the lower triangle of the normal equations, without its baseline.
-  void add(const AlignedEcho& echo, Eigen::MatrixXd& normal, Eigen::VectorXd& right) const {
-    std::vector<double> residual;
-    residuals(echo, residual);
+  void add(std::size_t waveform, Eigen::MatrixXd& normal, Eigen::VectorXd& right) const {
+    const AlignedEcho& echo = echoes_[waveform];
+    const double limit = kHuber * noise_;
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(count_);
     double weights = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < echo.counts->size(); ++i) {
-      const double y = (*echo.counts)[i], size = std::abs(residual[i]);
-      const double weight = limit_ > 0.0 && size > limit_ ? limit_ / size : 1.0;
+      const double y = (*echo.counts)[i];
+      const double size = residuals_.empty() ? 0.0 : std::abs(residuals_[waveform][i]);
+      const double weight = limit > 0.0 && size > limit ? limit / size : 1.0;
       weights += weight;
       sum += weight * y;
       int at = 0;
@@ -152,10 +156,11 @@ class SplineFit {
   }
 
   const std::vector<AlignedEcho>& echoes_;
-  double step_;        ///< of the values of the result, knots
-  double spacing_;     ///< of the knots, samples
-  int first_, count_;  ///< knots, from the time 0
-  double limit_ = 0.0;
+  double step_;                                 ///< of the values of the result, knots
+  double spacing_;                              ///< of the knots, samples
+  int first_, count_;                           ///< knots, from the time 0
+  std::vector<std::vector<double>> residuals_;  ///< by waveform; none before the first solution
+  double noise_ = 0.0;                          ///< their robust standard deviation
   Eigen::VectorXd coefficient_;
   Eigen::LLT<Eigen::MatrixXd> solver_;
 };

@@ -8,6 +8,7 @@
 #include <complex>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/waveform/pulse_response.h>
 
 namespace pcl_als::detail {
@@ -15,9 +16,8 @@ namespace {
 
 constexpr int kPhases = 8;               // values of the table per sample
 constexpr double kStep = 1.0 / kPhases;  // samples
-constexpr double kPi = 3.141592653589793;
-constexpr double kNegligible = 1e-12;  // of the terms of a series
-constexpr double kLevelRatio = 1.06;   // of neighbouring widths
+constexpr double kNegligible = 1e-12;    // of the terms of a series
+constexpr double kLevelRatio = 1.06;     // of neighbouring widths
 // Widths over that of the response, which is the third one: the derivative is not smooth there.
 constexpr double kLeastRatio = 1.0 / (kLevelRatio * kLevelRatio), kLargestRatio = 8.0;
 constexpr double kGaussianReach = 5.0;  // of the convolution, standard deviations

@@ -178,6 +178,11 @@ struct PulseWavesFile::State {
   std::map<std::uint32_t, std::vector<std::byte>> payloads_;  ///< that were read
 };
 
+bool isPulseFile(const std::filesystem::path& path) {
+  const std::string extension = lowerExtension(path);
+  return extension == ".pls" || extension == ".plz";
+}
+
 PulseWavesFile::PulseWavesFile(const std::filesystem::path& path)
     : state_(std::make_unique<State>(path)) {}
 PulseWavesFile::~PulseWavesFile() = default;

@@ -47,6 +47,11 @@ struct EchoSettings {
 using WaveformRunReader = std::function<void(std::uint64_t first, std::size_t count,
                                              const std::function<void(const Waveform&)>& take)>;
 
+/// Calls \a visit with the first item and the number of items of up to 40 runs all over \a all
+/// items, \a wanted together or somewhat more, or all where there are fewer.
+void visitRuns(std::uint64_t all, std::uint64_t wanted,
+               const std::function<void(std::uint64_t first, std::size_t count)>& visit);
+
 /// The response that is used, and what is known of it.
 struct ResponseChoice {
   std::map<unsigned, PulseResponse> by_descriptor;

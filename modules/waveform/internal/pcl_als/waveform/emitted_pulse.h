@@ -12,7 +12,6 @@ namespace pcl_als {
 struct EmittedPulse {
   std::vector<double> samples;  ///< largest value about 1, baseline 0 at both ends
   double peak = 0.0;            ///< mean time of the maxima, samples from the first one
-  double width = 0.0;           ///< full width at half maximum, samples
   std::size_t pulses = 0;       ///< in the mean
 };
 

@@ -137,6 +137,9 @@ class PulseWavesFile {
   std::unique_ptr<State> state_;
 };
 
+/// Whether a file is a Pulse file by its name: .pls, or .plz, which is refused when it is read.
+bool isPulseFile(const std::filesystem::path& path);
+
 /// Texts that describe a file: pulses, scanners, samplings, lookup tables, and the Waves file.
 std::vector<std::string> describePulseWaves(const PulseWavesFile& file);
 

@@ -36,7 +36,7 @@ struct WaveformDescriptor {
 /** \brief Reads the waveform packet descriptors of a file: VLRs or EVLRs LASF_Spec 100 to 354.
  *
  * \return descriptors by the index that point records refer to, record id - 99; those without
- * samples are left out, because some writers fill the table with them.
+ * samples are ignored, because some writers fill a table with them.
  * InputError, which names the file and the record, for a record that is too short, bits per sample
  * outside 2 to 32, a compression that the specification does not define, no time between samples, a
  * gain that is zero or no number, an offset that is no number, and for two records
