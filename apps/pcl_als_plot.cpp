@@ -43,6 +43,8 @@ std::optional<std::vector<std::string>> pictures(const CommandLine& line) {
                                  "variance_to_mean",
                                  "histograms",
                                  "strip_gains",
+                                 "pulse",
+                                 "waveforms",
                                  "confusion"};
   if (line.has("plots")) names = splitList(line.text("plots"));
   for (std::string& name : names) name += endingOf(line);
@@ -52,7 +54,7 @@ std::optional<std::vector<std::string>> pictures(const CommandLine& line) {
 CommandLine commandLine() {
   CommandLine line("pcl_als_plot",
                    "draws result files (JSON) as plots: parameters, correlations, residuals, "
-                   "convergence, offsets, variance-to-mean, confusion matrices",
+                   "convergence, offsets, variance-to-mean, confusion matrices, waveforms",
                    "RESULT.json... -output FOLDER [-plots NAME,...] [-format svg]",
                    "pcl_als_plot calibration.json -output plots -plots parameters,correlation");
   line.setArguments({{"", 1, 1000}});

@@ -2,11 +2,14 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <iostream>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/pulse_io.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/waveform_job.h>
+#include <pcl_als/report/waveform_report.h>
 
 #include "atmosphere_options.h"
 #include "command_line.h"
@@ -84,6 +87,15 @@ CommandLine commandLine() {
                  "digitizer count from which a sample is saturated (default: the largest that the "
                  "bits of a sample hold)",
                  std::nullopt, {1.0, 4294967295.0, "counts"});
+  line.addOutputFile("output",
+                     "numbers of echoes, the response, and some waveforms with echoes and "
+                     "residuals for pcl_als_plot",
+                     {".json"});
+  line.addText("waveforms",
+               "N,N,…: those of -output, by the numbers of points (pulses of a PulseWaves file) "
+               "from 0 (default: examples of all numbers of echoes, and the largest residuals)")
+      .in(app::Group::output);
+  line.makeDependent("waveforms", "output");
   line.addFlag("only_returns", "write no new echoes").in(app::Group::output);
   line.addFlag("move_returns", "move returns along their pulse to their echoes")
       .in(app::Group::output);
@@ -119,6 +131,18 @@ CrossSectionSettings crossSections(const CommandLine& line) {
   return settings;
 }
 
+/// The numbers of -waveforms.
+std::vector<std::uint64_t> shownWaveforms(const CommandLine& line) {
+  std::vector<std::uint64_t> numbers;
+  for (const std::string& text : splitList(line.text("waveforms"))) {
+    const auto number = valueIn<std::uint64_t>(text);
+    if (!number) throw UsageError("option -waveforms: '" + text + "' is no number of a point");
+    numbers.push_back(*number);
+  }
+  if (numbers.empty()) throw UsageError("option -waveforms: names no point");
+  return numbers;
+}
+
 WaveformSettings settingsOf(const CommandLine& line) {
   WaveformSettings settings;
   if (line.has("pulse_width")) settings.pulse_width_ns = line.number("pulse_width");
@@ -137,6 +161,8 @@ WaveformSettings settingsOf(const CommandLine& line) {
     settings.range_from =
         line.text("range_from") == "anchor" ? RangeOrigin::anchor : RangeOrigin::emitted;
   settings.threads = line.threads();
+  settings.examples = line.has("output");
+  if (line.has("waveforms")) settings.shown = shownWaveforms(line);
   settings.cross_sections = crossSections(line);
   return settings;
 }
@@ -148,6 +174,8 @@ int waveform(const CommandLine& line) {
   if (line.has("pulse_output"))
     writePulse(line.text("pulse_output"),
                {result.pulse_spacing_ns, result.pulse_first_ns, result.pulse});
+  if (line.has("output"))
+    writeFile(line.text("output"), waveformJson({&result, line.inputs().front(), line.output()}));
   if (!line.quiet()) std::cout << describe(result) << std::flush;
   return app::kDone;
 }

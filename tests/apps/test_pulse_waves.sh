@@ -11,6 +11,10 @@ expect 0 "PulseWaves 0.3, 200 pulses*scanner 1: Scanner X*returning: segments of
 expect 0 "334 echoes of 200 pulses" waveform in.pls out.laz
 expect 0 "334 points" info out.laz
 expect 0 "334 echoes" waveform in.pls plain.las -pulse_width 4.8 -threads 2
+expect 0 "" waveform in.pls shown.las -output waveform.json -waveforms 17
+check "the waveform of a pulse" grep -q '"number": 17,' waveform.json
+expect 0 "waveforms.png" plot waveform.json -output plots
+expect 1 "in.pls: has no pulse 200, the numbers are 0 to 199" waveform in.pls x.laz -output x.json -waveforms 200
 cp in.pls copy.pls && cp in.wvs copy.wvs
 expect 0 "copy.pls" info copy.pls out.laz
 

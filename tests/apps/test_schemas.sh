@@ -32,12 +32,15 @@ run calibrate "${strips[@]}" "${flight[@]}" -prior calibration.json -output prio
 run check "${strips[@]}" "${flight[@]}" -before "$block" -output quality.json
 printf 'is,a,b\na,40,2\nb,3,50\n' >matrix.csv
 printf 'is,a,b\na,38,4\nb,3,50\n' >other.csv
+"$bin/las_waveforms" 9 waves.las
+run waveform waves.las echoes.las -pulse_width 4.8 -output waveform.json
 run accuracy matrix.csv -compare other.csv -output accuracy.json
 
 check "calibration.json has its schema" valid calibration calibration.json
 check "a calibration with a prior has its schema" valid calibration prior.json
 check "quality.json has its schema" valid quality quality.json
 check "accuracy.json has its schema" valid accuracy accuracy.json
+check "waveform.json has its schema" valid waveform waveform.json
 
 sed 's/"boresight_roll": {/"boresight_rol": {/' calibration.json >damaged.json
 check "a calibration without roll has not" eval '! valid calibration damaged.json'

@@ -51,6 +51,21 @@ checks=$((checks + 1))
 awk 'BEGIN { print "time_ns,value"; for (t = -10; t <= 10; t += 0.5) print t "," exp(-t * t / 8.17) }' >pulse.csv
 expect 0 "200 of returns, 40 new" waveform in.las sampled.las -pulse pulse.csv
 
+# The result file, and pictures of waveforms: examples, and those of some points.
+expect 0 "" waveform in.las shown.las -pulse_width 4.8 -output waveform.json
+expect 0 "pulse.svg*waveforms.svg" plot waveform.json -output plots -format svg
+check "residuals are drawn" grep -q "below: residuals" plots/waveforms.svg
+check "echoes are counted" grep -q "point [0-9]*: 2 echoes, 1 new" plots/waveforms.svg
+expect 0 "" waveform in.las shown.las -pulse_width 4.8 -output asked.json -waveforms 7,199
+check "the waveforms that are asked for" test "$(grep -c '"number": \(7\|199\),' asked.json)" == 2
+expect 1 "in.las: has no point 200, the numbers are 0 to 199" waveform in.las x.las -pulse_width 4.8 -output y.json -waveforms 200
+expect 1 "option -waveforms: '-3' is no number of a point" waveform in.las x.las -output y.json -waveforms 1,-3
+check "nothing is written" test ! -e y.json
+sed 's/"amplitude": [0-9.]*/"amplitude": "large"/' waveform.json >damaged.json
+expect 2 "damaged.json: 'waveforms[[]0].echoes[[]0].amplitude' must be a number" plot damaged.json -output plots
+sed 's/"model": \[/"model": [1,/' waveform.json >damaged.json
+expect 2 "damaged.json: 'waveforms[[]0].model' must have four values" plot damaged.json -output plots
+
 # Cross sections: the sensor is 1000 m above the first sample along the pulse.
 awk 'BEGIN { print "time,x,y,z"; for (i = -100; i <= 100; ++i)
   printf "%.2f,%.3f,%.3f,%.3f\n", 230038.25 + 0.1 * i, -287.348, 6 * i, 1457.826 }' >flight.csv

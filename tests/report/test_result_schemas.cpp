@@ -20,6 +20,7 @@
 #include <pcl_als/report/mounting_report.h>
 #include <pcl_als/report/plan_report.h>
 #include <pcl_als/report/quality_report.h>
+#include <pcl_als/report/waveform_report.h>
 
 #include "file_bytes.h"
 #ifdef PCL_ALS_HAVE_CERES
@@ -33,7 +34,7 @@ const std::vector<FieldTable>& results() {
   static const std::vector<FieldTable> all = {
       calibrationFields(),    qualityFields(), accuracyFields(),
       intensityFields(),      icpatchFields(), planFields(),
-      mountingReportFields(), historyFields(), inventoryFields(),
+      mountingReportFields(), historyFields(), inventoryFields(), waveformFields(),
 #ifdef PCL_ALS_HAVE_CERES
       orientationFields()
 #endif

@@ -37,23 +37,6 @@ void appendRange(const CurvePanels::Panel& panel, std::vector<double>& x, std::v
   }
 }
 
-/// Layout of the panels, about half as high as wide.
-struct PanelGrid {
-  int columns = 1, rows = 1;
-
-  PanelGrid(std::size_t panels, double width, double height) {
-    double best = 0.0;
-    for (int c = 1; c <= static_cast<int>(panels); ++c) {
-      const int r = (static_cast<int>(panels) + c - 1) / c;
-      const double usable = std::min(width / c, 1.9 * height / r);
-      if (usable <= best) continue;
-      best = usable;
-      columns = c;
-      rows = r;
-    }
-  }
-};
-
 /// Names of the series, in order of appearance.
 std::vector<std::string> seriesNames(const CurvePanels& plot) {
   std::vector<std::string> names;
@@ -129,23 +112,22 @@ Canvas drawCurvePanels(const CurvePanels& plot, PictureSize size) {
   drawKey(canvas, names, colors, top + 4.0);
   top += names.size() < 2 ? 16.0 : 40.0;
   constexpr double kLeft = 92.0, kHead = 24.0, kFoot = 32.0, kLabel = 26.0;
-  const double width = size.width - kPlotMargin, height = size.height - top - kLabel;
-  const PanelGrid grid(plot.panels.size(), width, height);
-  const double pitch_x = width / grid.columns, pitch_y = height / grid.rows;
-  if (pitch_x < kLeft + 60.0 || pitch_y < kHead + kFoot + 40.0)
+  const detail::PanelGrid grid(plot.panels.size(), size.width - kPlotMargin,
+                               size.height - top - kLabel);
+  if (grid.pitch_x < kLeft + 60.0 || grid.pitch_y < kHead + kFoot + 40.0)
     throw UsageError("plot '" + plot.title + "': the picture is too small for its panels");
   std::vector<double> all_x, all_y;
   for (const CurvePanels::Panel& panel : plot.panels) appendRange(panel, all_x, all_y);
   const Axis common = Axis::around(all_x, "");
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {
-    const int column = static_cast<int>(i) % grid.columns, row = static_cast<int>(i) / grid.columns;
+    const Eigen::Vector2d corner = grid.corner(i);
     std::vector<double> x, y;
     appendRange(plot.panels[i], x, y);
     drawPanel(canvas, plot.panels[i], names, colors,
-              {kLeft + column * pitch_x, top + row * pitch_y + kHead, pitch_x - kLeft,
-               pitch_y - kHead - kFoot},
+              {kLeft + corner.x(), top + corner.y() + kHead, grid.pitch_x - kLeft,
+               grid.pitch_y - kHead - kFoot},
               plot.common_x ? common : Axis::around(x, ""),
-              Axis::around(all_y, column == 0 ? plot.y_label : ""));
+              Axis::around(all_y, corner.x() == 0.0 ? plot.y_label : ""));
   }
   TextStyle label;
   label.horizontal = Align::center;

@@ -36,6 +36,25 @@ double drawTitle(Canvas& canvas, const std::string& title) {
   return kPlotMargin + 40.0;
 }
 
+PanelGrid::PanelGrid(std::size_t panels, double width, double height) {
+  double best = 0.0;
+  for (int c = 1; c <= static_cast<int>(panels); ++c) {
+    const int r = (static_cast<int>(panels) + c - 1) / c;
+    const double usable = std::min(width / c, 1.9 * height / r);
+    if (usable <= best) continue;
+    best = usable;
+    columns = c;
+    rows = r;
+  }
+  pitch_x = width / columns;
+  pitch_y = height / rows;
+}
+
+Eigen::Vector2d PanelGrid::corner(std::size_t panel) const {
+  const int i = static_cast<int>(panel);
+  return {i % columns * pitch_x, i / columns * pitch_y};
+}
+
 std::vector<Color> seriesColors(const std::vector<std::string>& names) {
   std::vector<Color> colors;
   std::size_t before = 0, after = 0, other = 0;

@@ -36,6 +36,16 @@ Marker markerOf(const std::string& series);
 /// As many entries as fit so many pixels below each other; the last then says how many more.
 std::vector<LegendEntry> fitting(std::vector<LegendEntry> entries, double height);
 
+/// Panels of the same size side by side and below each other, about half as high as wide.
+struct PanelGrid {
+  int columns = 1, rows = 1;
+  double pitch_x, pitch_y;  ///< pixels
+
+  PanelGrid(std::size_t panels, double width, double height);
+  /// The upper left corner of a panel from that of the first one.
+  Eigen::Vector2d corner(std::size_t panel) const;
+};
+
 /// Drops all but the \a most items of largest value; those that stay keep their order.
 template <typename Item, typename Value>
 void keepLargest(std::vector<Item>& items, std::size_t most, Value value) {

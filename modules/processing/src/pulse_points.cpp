@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/waveform/waveform_examples.h>
 
 #include "waveform_echoes.h"
 
@@ -186,6 +187,16 @@ void PulsePoints::append(const PulseRecord& pulse, std::uint64_t index,
   for (std::size_t i = 0; i < found_.size(); ++i) {
     records.resize(records.size() + length);
     store(pulse, index, i, &records[records.size() - length]);
+  }
+}
+
+void PulsePoints::addExamples(const PulseRecord& pulse, std::uint64_t index,
+                              std::vector<WaveformExample>& examples) {
+  reader_.read(pulse, index, segments_);
+  for (const PulseSegment& segment : segments_) {
+    if (segment.sampling->type != PulseSampling::Type::returning) continue;
+    echoes_.decompose(segment.waveform, {});
+    examples.push_back(exampleOf(index, segment.waveform, echoes_));
   }
 }
 

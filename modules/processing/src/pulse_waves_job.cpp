@@ -8,6 +8,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/waveform/emitted_pulse.h>
+#include <pcl_als/waveform/waveform_examples.h>
 
 #include "block_decomposition.h"
 #include "pulse_points.h"
@@ -146,6 +147,27 @@ void addRemarks(const PulseWavesFile& file, std::vector<std::string>& remarks) {
                      ": none of its pulse descriptors has a returning waveform");
 }
 
+/// The waveforms of the pulses that are asked for, or a choice from the whole file.
+std::vector<WaveformExample> examplesOf(const PulseJob& job) {
+  PulsePoints points(job);
+  WaveformExamples examples;
+  std::vector<WaveformExample> asked;
+  std::vector<PulseRecord> pulses;
+  const auto visit = [&](std::uint64_t first, std::size_t count) {
+    job.waves.pulses().read(first, count, pulses);
+    for (std::size_t i = 0; i < count; ++i) points.addExamples(pulses[i], first + i, asked);
+  };
+  for (const std::uint64_t number : job.settings.shown) visit(number, 1);
+  if (!job.settings.shown.empty()) return asked;
+  visitRuns(job.waves.pulses().header().pulse_count, WaveformExamples::kWaveforms,
+            [&](std::uint64_t first, std::size_t count) {
+              asked.clear();
+              visit(first, count);
+              for (const WaveformExample& example : asked) examples.offer(example);
+            });
+  return examples.chosen();
+}
+
 }  // namespace
 
 WaveformResult decomposePulses(const std::filesystem::path& input,
@@ -154,6 +176,7 @@ WaveformResult decomposePulses(const std::filesystem::path& input,
   refuseWhatNeedsReturns(input, settings);
   const PulseWavesFile file(input);
   const WavesFile waves(file);
+  settings.checkShown(file.header().pulse_count, input.string(), "pulse");
   WaveformResult result;
   addRemarks(file, result.remarks);
   progress.begin("Estimating the pulse");
@@ -185,6 +208,7 @@ WaveformResult decomposePulses(const std::filesystem::path& input,
   }
   writer.finish();
   result.counts = blocks.counts();
+  if (settings.examples) result.examples = examplesOf(job);
   progress.end(grouped(result.counts.echoes) + " echoes in " + grouped(result.counts.waveforms) +
                " waveforms");
   return result;

@@ -10,6 +10,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/las/las_rewriter.h>
+#include <pcl_als/waveform/waveform_examples.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -201,21 +202,33 @@ void EchoWriter::renumber(const WaveformPulse& pulse, std::size_t begin,
                  &records[begin + i * length]);
 }
 
-void EchoWriter::append(const WaveformPulse& pulse, std::vector<std::byte>& records,
-                        WaveformCounts& counts) {
-  const std::size_t begin = records.size(), length = job_.las.header().record_length;
-  counts.points += pulse.count;
-  const bool has_waveform = reader_.read(pulse.records, pulse.first, waveform_);
-  if (!has_waveform) {
-    counts.without_waveform += pulse.count;
-    for (std::size_t p = 0; p < pulse.count; ++p) addRecord(pulse.records + p * length, records);
-    return;
-  }
+/// \return false if the pulse has no waveform
+bool EchoWriter::findEchoes(const WaveformPulse& pulse) {
+  if (!reader_.read(pulse.records, pulse.first, waveform_)) return false;
+  const std::size_t length = job_.las.header().record_length;
   locations_.clear();
   for (std::size_t p = 0; p < pulse.count; ++p)
     locations_.push_back(
         WaveformReference::of(pulse.records + p * length, job_.las.layout()).location_ps);
   echoes_.decompose(waveform_, locations_);
+  return true;
+}
+
+std::optional<WaveformExample> EchoWriter::example(const WaveformPulse& pulse,
+                                                   std::uint64_t number) {
+  if (!findEchoes(pulse)) return std::nullopt;
+  return exampleOf(number, waveform_, echoes_);
+}
+
+void EchoWriter::append(const WaveformPulse& pulse, std::vector<std::byte>& records,
+                        WaveformCounts& counts) {
+  const std::size_t begin = records.size(), length = job_.las.header().record_length;
+  counts.points += pulse.count;
+  if (!findEchoes(pulse)) {
+    counts.without_waveform += pulse.count;
+    for (std::size_t p = 0; p < pulse.count; ++p) addRecord(pulse.records + p * length, records);
+    return;
+  }
   findSections(pulse, counts);
   for (std::size_t p = 0; p < pulse.count; ++p) {
     const std::byte* given = pulse.records + p * length;

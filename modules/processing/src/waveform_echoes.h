@@ -3,11 +3,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/waveform_job.h>
 #include <pcl_als/waveform/pulse_echoes.h>
+#include <pcl_als/waveform/waveform_example.h>
 #include <pcl_als/waveform/waveform_reader.h>
 
 #include "echo_cross_sections.h"
@@ -54,6 +56,9 @@ class EchoWriter {
   std::size_t recordLength() const { return job_.fields.record_length; }
   /// Appends the records of a pulse to \a records, and counts it.
   void append(const WaveformPulse& pulse, std::vector<std::byte>& records, WaveformCounts& counts);
+  /// The waveform of a pulse, for users; nothing where there is none.
+  /// \param number of the point by which it is called
+  std::optional<WaveformExample> example(const WaveformPulse& pulse, std::uint64_t number);
 
  private:
   std::byte* addRecord(const std::byte* record, std::vector<std::byte>& records);
@@ -64,6 +69,8 @@ class EchoWriter {
   void addEchoes(const WaveformPulse& pulse, std::vector<std::byte>& records);
   void renumber(const WaveformPulse& pulse, std::size_t begin,
                 std::vector<std::byte>& records) const;
+
+  bool findEchoes(const WaveformPulse& pulse);
 
   const EchoJob& job_;
   WaveformReader reader_;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_version.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/las/las_selection.h>
 #include <pcl_als/processing/waveform_job.h>
 #include <pcl_als/waveform/pulse_waves_file.h>
+#include <pcl_als/waveform/waveform_examples.h>
 
 #include "block_decomposition.h"
 #include "echo_cross_sections.h"
@@ -35,6 +38,14 @@ ResponseChoice responsesOf(const WaveformSource& source, const WaveformSettings&
 
 }  // namespace
 
+void WaveformSettings::checkShown(std::uint64_t count, const std::string& file,
+                                  const char* what) const {
+  for (const std::uint64_t number : shown)
+    if (number >= count)
+      throw UsageError(file + ": has no " + what + " " + std::to_string(number) +
+                       (count > 0 ? ", the numbers are 0 to " + std::to_string(count - 1) : ""));
+}
+
 void WaveformCounts::merge(const WaveformCounts& other) {
   pulses += other.pulses;
   points += other.points;
@@ -54,12 +65,36 @@ void WaveformCounts::merge(const WaveformCounts& other) {
 
 namespace {
 
+/// The waveforms of the points that are asked for, or a choice from the whole file.
+std::vector<WaveformExample> examplesOf(const detail::EchoJob& job) {
+  const std::uint64_t all = job.las.header().point_count;
+  detail::EchoWriter echoes(job);
+  WaveformExamples examples;
+  std::vector<WaveformExample> asked;
+  for (const std::uint64_t number : job.settings.shown) {
+    const std::uint64_t first = number - std::min<std::uint64_t>(number, kMostPointsOfPulse - 1);
+    const std::uint64_t end = std::min(all, number + kMostPointsOfPulse);
+    detail::readPulseRun(job.las, first, end - first, [&](const detail::WaveformPulse& pulse) {
+      if (number < pulse.first || number >= pulse.first + pulse.count) return;
+      if (auto example = echoes.example(pulse, number)) asked.push_back(std::move(*example));
+    });
+  }
+  if (!job.settings.shown.empty()) return asked;
+  visitRuns(all, WaveformExamples::kWaveforms, [&](std::uint64_t first, std::size_t count) {
+    detail::readPulseRun(job.las, first, count, [&](const detail::WaveformPulse& pulse) {
+      if (const auto example = echoes.example(pulse, pulse.first)) examples.offer(*example);
+    });
+  });
+  return examples.chosen();
+}
+
 /// decomposeWaveforms() of a file of points.
 WaveformResult decomposePoints(const std::filesystem::path& input,
                                const std::filesystem::path& output,
                                const WaveformSettings& settings, ProgressReport& progress) {
   const LasFile las(input);
   const WaveformSource source(las);
+  settings.checkShown(las.header().point_count, input.string(), "point");
   std::optional<detail::EchoCrossSections> sections;
   if (settings.cross_sections.trajectory) sections.emplace(las, settings.cross_sections);
   progress.begin("Estimating the pulse");
@@ -101,6 +136,7 @@ WaveformResult decomposePoints(const std::filesystem::path& input,
   result.counts = blocks.counts();
   const WaveformCounts& c = result.counts;
   result.counts.unmatched = c.points - c.without_waveform - c.matched;
+  if (settings.examples) result.examples = examplesOf(job);
   result.remarks = writer.remarks();
   if (result.cross_sections && result.cross_sections->reference)
     for (const std::string& warning : result.cross_sections->reference->warnings)

@@ -10,9 +10,11 @@ namespace pcl_als::detail {
 namespace {
 
 constexpr std::size_t kBlockRecords = std::size_t{1} << 16;
-/// Divides records into pulses. \return the number of records in complete pulses
+/// Divides records into pulses.
+/// \param memory null: \a repeated stays false
+/// \return the number of records in complete pulses
 std::size_t divide(const LasFile& las, const std::vector<std::byte>& records, std::size_t count,
-                   std::uint64_t first, bool last, PacketMemory& memory,
+                   std::uint64_t first, bool last, PacketMemory* memory,
                    std::vector<WaveformPulse>& pulses) {
   const std::size_t length = las.header().record_length;
   pulses.clear();
@@ -24,7 +26,8 @@ std::size_t divide(const LasFile& las, const std::vector<std::byte>& records, st
            sameWaveform(own, WaveformReference::of(&records[to * length], las.layout())))
       ++to;
     if (to == count && !last && from > 0) break;
-    const bool repeated = own.descriptor != 0 && memory.meets(own.byte_offset);
+    const bool repeated =
+        memory != nullptr && own.descriptor != 0 && memory->meets(own.byte_offset);
     pulses.push_back({&records[from * length], to - from, first + from, repeated});
     from = to;
   }
@@ -47,12 +50,21 @@ void readPulses(const LasFile& las,
     las.readRecords(read, more, &records[kept * length]);
     const std::uint64_t first = read - kept;
     read += more;
-    const std::size_t done = divide(las, records, kept + more, first, read == all, memory, pulses);
+    const std::size_t done = divide(las, records, kept + more, first, read == all, &memory, pulses);
     take(pulses);
     kept += more - done;
     std::copy(records.end() - static_cast<std::ptrdiff_t>(kept * length), records.end(),
               records.begin());
   }
+}
+
+void readPulseRun(const LasFile& las, std::uint64_t first, std::size_t count,
+                  const std::function<void(const WaveformPulse&)>& take) {
+  std::vector<std::byte> records(count * las.header().record_length);
+  las.readRecords(first, count, records.data());
+  std::vector<WaveformPulse> pulses;
+  divide(las, records, count, first, true, nullptr, pulses);
+  for (const WaveformPulse& pulse : pulses) take(pulse);
 }
 
 }  // namespace pcl_als::detail

@@ -27,4 +27,8 @@ struct WaveformPulse {
 void readPulses(const LasFile& las,
                 const std::function<void(const std::vector<WaveformPulse>&)>& take);
 
+/// Calls \a take with the pulses of some records, the first and the last of which may be cut off.
+void readPulseRun(const LasFile& las, std::uint64_t first, std::size_t count,
+                  const std::function<void(const WaveformPulse&)>& take);
+
 }  // namespace pcl_als::detail

@@ -8,14 +8,18 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/field_node.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/drawing/calibration_plots.h>
 #include <pcl_als/drawing/curve_panels.h>
 #include <pcl_als/drawing/row_plots.h>
+#include <pcl_als/drawing/waveform_plot.h>
+#include <pcl_als/io/json_text.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/report/picture/result_file_plots.h>
+#include <pcl_als/report/waveform_report.h>
 
 namespace pcl_als {
 namespace {
@@ -238,12 +242,66 @@ void addGains(const Json& root, std::vector<NamedPlot>& plots) {
   plots.push_back({"strip_gains", [plot](PictureSize size) { return drawIntervals(plot, size); }});
 }
 
+WaveformPlot::Panel panelOf(const WaveformExample& waveform, const std::string& item) {
+  std::size_t fresh = 0;
+  WaveformPlot::Panel panel;
+  panel.spacing = waveform.spacing;
+  panel.samples = waveform.samples;
+  panel.model = waveform.model;
+  for (std::size_t i = 0; i < waveform.samples.size(); ++i)
+    panel.residuals.push_back(waveform.residual(i));
+  panel.baseline = waveform.baseline;
+  panel.noise = waveform.noise;
+  for (const WaveformExample::Echo& echo : waveform.echoes) {
+    panel.echoes.push_back({echo.time, echo.amplitude, echo.new_echo});
+    fresh += echo.new_echo ? 1 : 0;
+  }
+  panel.returns = waveform.returns;
+  panel.title = item + " " + std::to_string(waveform.number) + ": " +
+                std::to_string(waveform.echoes.size()) +
+                (waveform.echoes.size() == 1 ? " echo" : " echoes");
+  if (fresh > 0) panel.title += ", " + std::to_string(fresh) + " new";
+  return panel;
+}
+
+/// The response and waveforms, as pcl_als_waveform writes them.
+void addWaveforms(const std::string& text, const std::string& file, std::vector<NamedPlot>& plots) {
+  const FieldValue value = parseJson(text, file);
+  const FieldNode root(value, file);
+  const FieldNode response = root["response"];
+  CurvePlot pulse{"Response of the system to a point target",
+                  "time from its maximum, ns",
+                  "share of the maximum",
+                  {}};
+  CurvePlot::Series& series = pulse.series.emplace_back();
+  const double first = response["first_ns"].number(), spacing = response["spacing_ns"].number();
+  for (const FieldNode& share : response["values"].items()) {
+    series.x.push_back(first + spacing * static_cast<double>(series.x.size()));
+    series.y.push_back(share.number());
+  }
+  plots.push_back({"pulse", [pulse](PictureSize size) { return drawCurves(pulse, size); }});
+  WaveformPlot plot{"Waveforms, their echoes and residuals", {}};
+  const char* item = root["counts"]["pulses"].count() > 0 ? "pulse" : "point";
+  for (const FieldNode& node : root["waveforms"].items()) {
+    WaveformExample waveform;
+    waveformExampleFields().read(waveform, node);
+    plot.panels.push_back(panelOf(waveform, item));
+  }
+  if (plot.panels.empty()) return;
+  if (plot.panels.size() > CurvePanels::kMaximumPanels)
+    plot.title += " (the first " + std::to_string(CurvePanels::kMaximumPanels) + " of " +
+                  std::to_string(plot.panels.size()) + ")";
+  plot.panels.resize(std::min(plot.panels.size(), CurvePanels::kMaximumPanels));
+  plots.push_back({"waveforms", [plot](PictureSize size) { return drawWaveforms(plot, size); }});
+}
+
 }  // namespace
 
 std::vector<NamedPlot> plotsOf(const std::filesystem::path& file) {
   std::vector<NamedPlot> plots;
   try {
-    const Json root = Json::parse(readWholeFile(file, kJsonLimits));
+    const std::string text = readWholeFile(file, kJsonLimits);
+    const Json root = Json::parse(text);
     if (!root.is_object()) throw InputError(file.string() + ": is no result of a pcl_als tool");
     if (root.value("format", "") == "pcl_als calibration") addCalibration(file, plots);
     if (root.contains("curves")) addCurves(root["curves"], plots);
@@ -253,6 +311,7 @@ std::vector<NamedPlot> plotsOf(const std::filesystem::path& file) {
       addHeights(root, plots);
       addOffsets(root, plots);
     }
+    if (root.value("format", "") == "pcl_als waveform") addWaveforms(text, file.string(), plots);
     if (root.value("format", "") == "pcl_als intensity") {
       addIntensity(root, plots);
       addGains(root, plots);

@@ -32,6 +32,9 @@ void PulseEchoes::decompose(const Waveform& waveform, const std::vector<double>&
   locations_ = locations;
   WaveformDecomposer& decomposer = decomposerOf(waveform.reference.descriptor, waveform.descriptor);
   decomposer.decompose(waveform.counts.data(), waveform.counts.size(), found_);
+  response_ = &decomposer.response();
+  samples_ = waveform.counts.size();
+  bounds_ = settings_.decompositionOf(waveform.descriptor);
   match(kFwhmOfGaussian * spacing_ * decomposer.response().width());
 }
 
@@ -56,6 +59,35 @@ void PulseEchoes::match(double reach) {
     echo_of_return_[static_cast<std::size_t>(best_return)] = best_echo;
     return_of_echo_[static_cast<std::size_t>(best_echo)] = best_return;
   }
+}
+
+std::vector<double> PulseEchoes::model(int per_sample) const {
+  if (samples_ == 0) return {};
+  const auto last = static_cast<int>(samples_) - 1;
+  std::vector<double> values(static_cast<std::size_t>(last * per_sample + 1), found_.baseline);
+  std::vector<double> response(samples_), by_time(samples_), by_width(samples_);
+  for (int e = 0; e < found_.count; ++e) {
+    for (int part = 0; part < per_sample; ++part) {
+      const double time = at(e).time - static_cast<double>(part) / per_sample;
+      const int first =
+          std::max(0, static_cast<int>(std::ceil(time - response_->before(at(e).width))));
+      const int end =
+          std::min(last, static_cast<int>(std::floor(time + response_->after(at(e).width)))) + 1;
+      if (first >= end) continue;
+      response_->evaluate(time, at(e).width, first, end, response.data(), by_time.data(),
+                          by_width.data());
+      for (int i = first; i < end; ++i) {
+        const auto place = static_cast<std::size_t>(i * per_sample + part);
+        if (place < values.size())
+          values[place] += at(e).amplitude * response[static_cast<std::size_t>(i - first)];
+      }
+    }
+  }
+  return values;
+}
+
+bool PulseEchoes::isBound(double count) const {
+  return count >= bounds_.saturation || count <= bounds_.clipping;
 }
 
 double PulseEchoes::timeOf(int echo) const {

@@ -15,6 +15,7 @@
 #include <pcl_als/radiometry/reference_targets.h>
 #include <pcl_als/trajectory/trajectory.h>
 #include <pcl_als/waveform/echo_settings.h>
+#include <pcl_als/waveform/waveform_example.h>
 
 namespace pcl_als {
 
@@ -55,7 +56,12 @@ struct WaveformSettings : EchoSettings {
   bool new_echoes = true;     ///< write the echoes that no return belongs to
   bool move_returns = false;  ///< move returns along their pulse to the time of their echo
   RangeOrigin range_from = RangeOrigin::automatic;  ///< of Pulse files
-  int threads = 0;  ///< 0: all cores; the result does not depend on it
+  bool examples = false;  ///< waveforms in the result: \a shown, or a choice of WaveformExamples
+  std::vector<std::uint64_t> shown;  ///< numbers of points, or of pulses of a Pulse file, from 0
+  int threads = 0;                   ///< 0: all cores; the result does not depend on it
+
+  /// UsageError if a waveform that is to be shown does not exist among \a count points or pulses.
+  void checkShown(std::uint64_t count, const std::string& file, const char* what) const;
 };
 
 /// Counts of a decomposed file.
@@ -96,6 +102,7 @@ struct WaveformResult {
   std::vector<double> pulse;
   double pulse_spacing_ns = 0.0, pulse_first_ns = 0.0;  ///< and the time of the first sample
   std::optional<CrossSectionResult> cross_sections;
+  std::vector<WaveformExample> examples;
   std::vector<std::string> remarks;
 };
 
@@ -127,10 +134,11 @@ struct WaveformResult {
  * that of a Pulse file with emitted pulses is their mean (EmittedPulseMean).
  *
  * UsageError for settings out of their ranges, where the output is the input, for cross sections,
- * moved returns or returns alone of a Pulse file, and for a RangeOrigin of other files. InputError
- * for files without waveforms, damaged descriptors and packets (WaveformReader, PulseWavesReader),
- * and if the width of the response cannot be estimated; also for a trajectory that does not belong
- * to the points, and if the targets have too few single echoes. Cancelled.
+ * moved returns or returns alone of a Pulse file, for a RangeOrigin of other files, and for
+ * waveforms to be shown that the file does not have. InputError for files without waveforms,
+ * damaged descriptors and packets (WaveformReader, PulseWavesReader), and if the width of the
+ * response cannot be estimated; also for a trajectory that does not belong to the points, and if
+ * the targets have too few single echoes. Cancelled.
  */
 WaveformResult decomposeWaveforms(const std::filesystem::path& input,
                                   const std::filesystem::path& output,

@@ -42,6 +42,12 @@ class PulseEchoes {
 
   const Decomposition& found() const { return found_; }
   int count() const { return found_.count; }
+  const std::vector<double>& locations() const { return locations_; }  ///< as given
+  /// The adjusted waveform, baseline and echoes, at every 1 / \a per_sample from the first to the
+  /// last sample.
+  std::vector<double> model(int per_sample) const;
+  /// Whether a sample of the waveform is a bound only: saturated or clipped.
+  bool isBound(double count) const;
   /// Index of the echo of a return, of the return of an echo; -1: none.
   int echoOf(std::size_t return_index) const { return echo_of_return_[return_index]; }
   int returnOf(int echo) const { return return_of_echo_[static_cast<std::size_t>(echo)]; }
@@ -65,6 +71,9 @@ class PulseEchoes {
   const std::map<unsigned, PulseResponse>& responses_;
   const EchoSettings& settings_;
   std::map<unsigned, WaveformDecomposer> decomposers_;
+  const PulseResponse* response_ = nullptr;  ///< of the waveform
+  DecompositionSettings bounds_;             ///< of its samples
+  std::size_t samples_ = 0;
   Decomposition found_;
   double spacing_ = 0.0;  ///< picoseconds
   std::vector<double> locations_;

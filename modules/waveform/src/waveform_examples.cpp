@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+
+#include <pcl_als/waveform/waveform_examples.h>
+#include <pcl_als/waveform/waveform_reader.h>
+
+namespace pcl_als {
+namespace {
+
+/// A number in [0, 1) that looks random, the same for the same number (SplitMix64).
+double mixed(std::uint64_t number) {
+  std::uint64_t z = number + 0x9E3779B97F4A7C15;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EB;
+  return std::ldexp(static_cast<double>((z ^ (z >> 31)) >> 11), -53);
+}
+
+}  // namespace
+
+WaveformExample exampleOf(std::uint64_t number, const Waveform& waveform,
+                          const PulseEchoes& echoes) {
+  const Decomposition& found = echoes.found();
+  WaveformExample example;
+  example.number = number;
+  example.descriptor = waveform.reference.descriptor;
+  example.spacing = waveform.descriptor.spacing_ps / kPicosecondsPerNanosecond;
+  example.baseline = found.baseline;
+  example.baseline_std = found.baseline_std;
+  example.noise = found.noise;
+  example.samples = waveform.counts;
+  example.model = echoes.model(WaveformExample::kModelValues);
+  const double width = example.spacing * kFwhmOfGaussian;
+  for (int e = 0; e < found.count; ++e) {
+    const WaveformEcho& echo = found.echo[static_cast<std::size_t>(e)];
+    example.echoes.push_back({example.spacing * echo.time, example.spacing * echo.time_std,
+                              echo.amplitude, echo.amplitude_std, width * echo.width,
+                              width * echo.width_std, echoes.returnOf(e) < 0});
+  }
+  for (const double location : echoes.locations())
+    example.returns.push_back(location / kPicosecondsPerNanosecond);
+  for (std::size_t i = 0; i < example.samples.size() && found.noise > 0.0; ++i) {
+    if (echoes.isBound(example.samples[i])) continue;
+    example.largest_residual =
+        std::max(example.largest_residual, std::abs(example.residual(i)) / found.noise);
+  }
+  return example;
+}
+
+void WaveformExamples::insert(Chosen& among, double order, const WaveformExample& example) {
+  const auto place = std::find_if(among.begin(), among.end(), [order](const Candidate& candidate) {
+    return order < candidate.order;
+  });
+  if (place == among.end()) return;
+  std::move_backward(place, among.end() - 1, among.end());
+  *place = {order, example};
+}
+
+void WaveformExamples::offer(const WaveformExample& example) {
+  insert(by_echoes_[std::min(example.echoes.size(), kKinds - 1)], mixed(example.number), example);
+  insert(by_residual_, -example.largest_residual, example);
+}
+
+std::vector<WaveformExample> WaveformExamples::chosen() const {
+  std::vector<WaveformExample> all;
+  const auto add = [&all](const Chosen& chosen) {
+    for (const Candidate& candidate : chosen) {
+      const bool empty = !std::isfinite(candidate.order);
+      const bool there = std::any_of(all.begin(), all.end(), [&](const WaveformExample& other) {
+        return other.number == candidate.example.number;
+      });
+      if (!empty && !there) all.push_back(candidate.example);
+    }
+  };
+  for (const Chosen& chosen : by_echoes_) add(chosen);
+  add(by_residual_);
+  return all;
+}
+
+}  // namespace pcl_als
