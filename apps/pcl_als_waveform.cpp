@@ -47,6 +47,21 @@ void addCrossSectionOptions(CommandLine& line) {
   line.makeDependent("target_radius", "targets");
 }
 
+void addOutputOptions(CommandLine& line) {
+  line.addOutputFile("output",
+                     "numbers of echoes, the response, and some waveforms with echoes and "
+                     "residuals for pcl_als_plot",
+                     {".json"});
+  line.addText("waveforms",
+               "N,N,…: those of -output, by the numbers of points (pulses of a PulseWaves file) "
+               "from 0 (default: examples of all numbers of echoes, and the largest residuals)")
+      .in(app::Group::output);
+  line.makeDependent("waveforms", "output");
+  line.addFlag("only_returns", "write no new echoes").in(app::Group::output);
+  line.addFlag("move_returns", "move returns along their pulse to their echoes")
+      .in(app::Group::output);
+}
+
 CommandLine commandLine() {
   CommandLine line(
       "pcl_als_waveform",
@@ -87,18 +102,7 @@ CommandLine commandLine() {
                  "digitizer count from which a sample is saturated (default: the largest that the "
                  "bits of a sample hold)",
                  std::nullopt, {1.0, 4294967295.0, "counts"});
-  line.addOutputFile("output",
-                     "numbers of echoes, the response, and some waveforms with echoes and "
-                     "residuals for pcl_als_plot",
-                     {".json"});
-  line.addText("waveforms",
-               "N,N,…: those of -output, by the numbers of points (pulses of a PulseWaves file) "
-               "from 0 (default: examples of all numbers of echoes, and the largest residuals)")
-      .in(app::Group::output);
-  line.makeDependent("waveforms", "output");
-  line.addFlag("only_returns", "write no new echoes").in(app::Group::output);
-  line.addFlag("move_returns", "move returns along their pulse to their echoes")
-      .in(app::Group::output);
+  addOutputOptions(line);
   line.addChoice("range_from",
                  "where the times of echoes of a PulseWaves file count from: anchor, as stored, or "
                  "the emitted pulse of the same pulse (default: emitted where the file states "

@@ -75,6 +75,32 @@ class JobTest(FolderTest):
         self.assertEqual(result.to_dict()["model"], content("tool.json")["model"])
         self.assertEqual(sum(result.points_by_status.values()), len(pcl_als.Survey(STRIPS)))
 
+    def test_waveforms(self):
+        tool("simulate", "-preset", "small", "-scale", "0.2", "-density", "0.05", "-waveforms", "-output", "waves")
+        flight = pcl_als.read_trajectory("waves/trajectory.csv")
+        settings = pcl_als.WaveformSettings(pulse_width_ns=4, beam_divergence=0.5, correct_attenuation=True, threads=1)
+        result = pcl_als.decompose_waveforms("waves/strip1.las", "python.las", settings=settings, trajectory=flight,
+                                             atmosphere=pcl_als.Atmosphere(visibility_km=23), waveforms=[3, 17])
+        tool("waveform", "waves/strip1.las", "tool.las", "-pulse_width", "4", "-trajectory", "waves/trajectory.csv",
+             "-visibility", "23", "-beam_divergence", "0.5", "-correct_attenuation", "-output", "tool.json", "-waveforms", "3,17")
+        self.assertTrue(filecmp.cmp("tool.las", "python.las", shallow=False))
+        expected = content("tool.json")
+        self.assertEqual(result.warnings, [each.replace("tool.wdp", "python.wdp") for each in expected["warnings"]])
+        expected.update(output="python.las", warnings=result.warnings)
+        self.assertEqual(result.to_dict(), expected)
+        self.assertEqual([each["number"] for each in expected["waveforms"]], [3, 17])
+        self.assertEqual(result.response[:, 1].max(), 1.0)
+        self.assertEqual(result.calibration_constant, 1.0)
+        self.assertRegex(repr(result), r"^<pcl_als.WaveformResult: \d+ echoes in \d+ waveforms, \d+ new>$")
+        examples = pcl_als.decompose_waveforms("waves/strip1.las", "python.las", settings=settings)
+        self.assertIsNone(examples.calibration_constant)
+        self.assertEqual({1, 2} - {len(each["echoes"]) for each in examples.to_dict()["waveforms"]}, set())
+        self.assertEqual(len(pickle.loads(pickle.dumps(result)).to_frame()["number"]), 2)
+        with self.assertRaisesRegex(ValueError, "has no point 10000000"):
+            pcl_als.decompose_waveforms("waves/strip1.las", "x.las", waveforms=[10000000])
+        with self.assertRaisesRegex(ValueError, "range_from: 'pulse' is none of automatic, anchor, emitted"):
+            pcl_als.WaveformSettings(range_from="pulse")
+
     def test_classification(self):
         sites = os.path.join(BLOCK, "training.csv"), os.path.join(BLOCK, "checkpoints.csv")
         result = pcl_als.classify(STRIPS, "python.tif", training=sites[0], checkpoints=sites[1])

@@ -32,9 +32,9 @@ namespace {
 
 const std::vector<FieldTable>& results() {
   static const std::vector<FieldTable> all = {
-      calibrationFields(),    qualityFields(), accuracyFields(),
-      intensityFields(),      icpatchFields(), planFields(),
-      mountingReportFields(), historyFields(), inventoryFields(), waveformFields(),
+      calibrationFields(), qualityFields(),  accuracyFields(),       intensityFields(),
+      icpatchFields(),     planFields(),     mountingReportFields(), historyFields(),
+      inventoryFields(),   waveformFields(),
 #ifdef PCL_ALS_HAVE_CERES
       orientationFields()
 #endif

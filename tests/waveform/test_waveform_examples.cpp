@@ -39,7 +39,7 @@ class ExampleOfAWaveform : public testing::Test {
   }
   WaveformExample example(const Waveform& waveform, const std::vector<double>& returns = {}) {
     echoes_->decompose(waveform, returns);
-    return exampleOf(17, waveform, *echoes_);
+    return echoes_->example(17);
   }
 
   EchoSettings settings_;
@@ -59,7 +59,8 @@ TEST_F(ExampleOfAWaveform, HasEchoesInNanosecondsAndTheAdjustedWaveform) {
   EXPECT_FALSE(echo.new_echo);
   ASSERT_EQ(example.returns.size(), 1U);
   EXPECT_EQ(example.returns[0], 11.0);
-  // Four values for each of 47 samples, and the last one; by hand at 20.25 samples and at both ends.
+  // Four values for each of 47 samples, and the last one; by hand at 20.25 samples and at both
+  // ends.
   ASSERT_EQ(example.model.size(), 189U);
   const double by_hand =
       example.baseline +
@@ -105,10 +106,9 @@ TEST(WaveformExamples, AreOfAllNumbersOfEchoesAndTheLargestResiduals) {
   ASSERT_EQ(other.size(), 14U);
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     EXPECT_EQ(chosen[i].number, other[i].number);
-    if (i < 10) EXPECT_EQ(chosen[i].echoes.size(), i / 2);
+    EXPECT_EQ(std::min<std::size_t>(chosen[i].echoes.size(), 5),
+              i < 12 ? i / 2 : (i == 12 ? 2 : 0));
   }
-  EXPECT_GE(chosen[10].echoes.size(), 5U);
-  EXPECT_GE(chosen[11].echoes.size(), 5U);
   EXPECT_EQ(chosen[12].number, 100U);
   EXPECT_EQ(chosen[13].number, 413U);
   // Not the first ones of the file.

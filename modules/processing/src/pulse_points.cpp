@@ -7,7 +7,6 @@
 #include <limits>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/waveform/waveform_examples.h>
 
 #include "waveform_echoes.h"
 
@@ -196,7 +195,7 @@ void PulsePoints::addExamples(const PulseRecord& pulse, std::uint64_t index,
   for (const PulseSegment& segment : segments_) {
     if (segment.sampling->type != PulseSampling::Type::returning) continue;
     echoes_.decompose(segment.waveform, {});
-    examples.push_back(exampleOf(index, segment.waveform, echoes_));
+    examples.push_back(echoes_.example(index));
   }
 }
 

@@ -12,7 +12,6 @@
 #include <pcl_als/processing/waveform_job.h>
 #include <pcl_als/waveform/pulse_echoes.h>
 #include <pcl_als/waveform/pulse_waves_reader.h>
-#include <pcl_als/waveform/waveform_example.h>
 
 namespace pcl_als::detail {
 

@@ -10,7 +10,6 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/las/las_rewriter.h>
-#include <pcl_als/waveform/waveform_examples.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -217,7 +216,7 @@ bool EchoWriter::findEchoes(const WaveformPulse& pulse) {
 std::optional<WaveformExample> EchoWriter::example(const WaveformPulse& pulse,
                                                    std::uint64_t number) {
   if (!findEchoes(pulse)) return std::nullopt;
-  return exampleOf(number, waveform_, echoes_);
+  return echoes_.example(number);
 }
 
 void EchoWriter::append(const WaveformPulse& pulse, std::vector<std::byte>& records,

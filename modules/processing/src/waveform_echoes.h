@@ -9,7 +9,6 @@
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/waveform_job.h>
 #include <pcl_als/waveform/pulse_echoes.h>
-#include <pcl_als/waveform/waveform_example.h>
 #include <pcl_als/waveform/waveform_reader.h>
 
 #include "echo_cross_sections.h"

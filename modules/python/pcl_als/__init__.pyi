@@ -1253,6 +1253,118 @@ class SystemEstimate:
 class UsageError(Error, ValueError):
     """A wrong argument or an impossible value; also a ValueError."""
 
+class WaveformResult:
+    """The result of a decomposition of waveforms."""
+    @property
+    def calibration_constant(self) -> Optional[float]:
+        """of cross sections; None without a trajectory"""
+    @property
+    def echoes(self) -> int: ...
+    @property
+    def new_echoes(self) -> int:
+        """that no return belongs to"""
+    @property
+    def pulse_width_ns(self) -> float:
+        """of the response that was used"""
+    @property
+    def response(self) -> numpy.ndarray:
+        """rows of time (ns) and value"""
+    def to_dict(self) -> Any:
+        """The content of waveform.json of pcl_als_waveform as dictionaries and lists; its entry
+        'waveforms' has the samples, echoes and adjusted values of some waveforms."""
+    def to_frame(self) -> Any:
+        """The echoes of the waveforms in to_dict() as a pandas.DataFrame; as a dictionary of
+        columns where pandas is missing."""
+    @property
+    def warnings(self) -> list[str]: ...
+    @property
+    def waveforms(self) -> int: ...
+
+class WaveformSettings:
+    """Settings of a decomposition; attributes may be given as keywords."""
+    def __init__(self, **kwargs) -> None: ...
+    @property
+    def beam_divergence(self) -> float:
+        """full angle, mrad; for cross sections"""
+    @beam_divergence.setter
+    def beam_divergence(self, value: float) -> None: ...
+    @property
+    def calibration_constant(self) -> float:
+        """of cross sections, m^2 / (count ns km^4); 1: they are relative"""
+    @calibration_constant.setter
+    def calibration_constant(self, value: float) -> None: ...
+    @property
+    def correct_attenuation(self) -> bool:
+        """divide cross sections by the transmission that the echoes before leave"""
+    @correct_attenuation.setter
+    def correct_attenuation(self, value: bool) -> None: ...
+    @property
+    def false_echoes(self) -> float:
+        """expected in a waveform"""
+    @false_echoes.setter
+    def false_echoes(self, value: float) -> None: ...
+    @property
+    def force(self) -> bool: ...
+    @force.setter
+    def force(self, value: bool) -> None: ...
+    @property
+    def gps_week(self) -> Optional[int]: ...
+    @gps_week.setter
+    def gps_week(self, value: Optional[int]) -> None: ...
+    @property
+    def move_returns(self) -> bool:
+        """to the place of their echo"""
+    @move_returns.setter
+    def move_returns(self, value: bool) -> None: ...
+    @property
+    def new_echoes(self) -> bool:
+        """write echoes without a return"""
+    @new_echoes.setter
+    def new_echoes(self, value: bool) -> None: ...
+    @property
+    def pulse(self) -> list[float]:
+        """the response by samples, in place of a Gaussian"""
+    @pulse.setter
+    def pulse(self, value: Iterable[float]) -> None: ...
+    @property
+    def pulse_spacing_ns(self) -> float:
+        """of these samples"""
+    @pulse_spacing_ns.setter
+    def pulse_spacing_ns(self, value: float) -> None: ...
+    @property
+    def pulse_width_ns(self) -> float:
+        """full width at half maximum of the response; 0: estimated"""
+    @pulse_width_ns.setter
+    def pulse_width_ns(self, value: float) -> None: ...
+    @property
+    def range_from(self) -> str:
+        """where times of PulseWaves files count from: 'automatic', 'anchor', 'emitted'"""
+    @range_from.setter
+    def range_from(self, value: str) -> None: ...
+    @property
+    def ringing(self) -> float:
+        """share of the amplitude of an echo below which echoes behind it are excluded"""
+    @ringing.setter
+    def ringing(self, value: float) -> None: ...
+    @property
+    def ringing_reach_ns(self) -> float: ...
+    @ringing_reach_ns.setter
+    def ringing_reach_ns(self, value: float) -> None: ...
+    @property
+    def saturation(self) -> float:
+        """digitizer counts; 0: the largest that the bits of a sample hold"""
+    @saturation.setter
+    def saturation(self, value: float) -> None: ...
+    @property
+    def target_radius(self) -> float:
+        """of the points of a target, m"""
+    @target_radius.setter
+    def target_radius(self, value: float) -> None: ...
+    @property
+    def threads(self) -> int: ...
+    @threads.setter
+    def threads(self, value: int) -> None: ...
+
 def calibrate(points: Union[Union[_Path, Iterable[_Path]], Survey, Iterable[Strip]], trajectory: Union[Union[_Path, Iterable[_Path]], Flight], *, control: Union[None, _Path, Iterable[ControlPoint]] = None, settings: CalibrationSettings = ..., strips: Union[StripChoice, Iterable[str]] = ..., pairs: Iterable[tuple[str, str]] = [], references: Iterable[str] = [], gps_week: Optional[int] = None, progress: Optional[Callable[[Progress], Any]] = None) -> CalibrationResult:
     """Estimates boresight angles, lever arm, range bias and scan angle scale from overlapping
     strips (Habib et al. 2011), as pcl_als_calibrate does. points: files, strips in memory or a
@@ -1307,6 +1419,13 @@ def correct_intensity(inputs: Union[_Path, Iterable[_Path]], outputs: Union[_Pat
 
 def correct_strip(strip: Strip, trajectory: Union[Union[_Path, Iterable[_Path]], Flight], calibration: Union[_Path, CalibrationResult], *, strip_corrections: bool = False, invert: bool = False, keep_uncovered: bool = False, threads: int = 0) -> Strip:
     """The same of a strip in memory; returns a new Strip."""
+
+def decompose_waveforms(input: _Path, output: _Path, *, settings: WaveformSettings = ..., waveforms: Iterable[int] = [], trajectory: Union[None, Union[_Path, Iterable[_Path]], Flight] = None, atmosphere: Optional[Atmosphere] = None, targets: Optional[_Path] = None, progress: Optional[Callable[[Progress], Any]] = None) -> WaveformResult:
+    """Decomposes the waveforms of a LAS, LAZ or PulseWaves file into echoes and writes them as
+    points, as pcl_als_waveform does. waveforms: numbers of points (or pulses) whose waveforms
+    the result contains, from 0, in place of examples; trajectory: for cross sections, with the
+    extinction of an atmosphere, calibrated by targets (CSV of places of known reflectance).
+    InputError for files without waveforms and damaged ones."""
 
 def empty_points(count: int) -> numpy.ndarray:
     """An array of that many points of dtype POINT, all at the origin, to be filled. A Strip

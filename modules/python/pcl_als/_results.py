@@ -86,6 +86,18 @@ def _survey_columns(survey):
     return {"strip": list(survey.points_by_strip), "points": list(survey.points_by_strip.values())}
 
 
+def _waveform_columns(result):
+    """The echoes of the waveforms in the result."""
+    columns = {"number": [], "time_ns": [], "time_std_ns": [], "amplitude": [], "amplitude_std": [], "width_ns": [],
+               "width_std_ns": [], "new_echo": []}
+    for waveform in result.to_dict()["waveforms"]:
+        for echo in waveform["echoes"]:
+            columns["number"].append(waveform["number"])
+            for name, value in echo.items():
+                columns[name].append(value)
+    return columns
+
+
 def _cover_columns(cover):
     return {"class": cover.model.classes, "cells": cover.cells} if cover.model else {"class": [], "cells": []}
 
@@ -100,6 +112,7 @@ _COLUMNS = {
     "PlanResult": (lambda plan: _calibration_columns(plan.expected), "The expected parameters"),
     "Strip": (_strip_columns, "The points, in the ground frame,"),
     "Survey": (_survey_columns, "The strips"),
+    "WaveformResult": (_waveform_columns, "The echoes of the waveforms in to_dict()"),
 }
 
 
@@ -160,6 +173,7 @@ _SUMMARIES = {
     "LeftOutPoints": str,
     "Orientation": lambda result: f"{_reliability(result)}; sigma0 {result.sigma0:.3g}",
     "PlanResult": _plan_summary,
+    "WaveformResult": lambda result: f"{result.echoes} echoes in {result.waveforms} waveforms, {result.new_echoes} new",
     "Survey": lambda survey: f"{len(survey)} points in {len(survey.strips)} strips",
 }
 

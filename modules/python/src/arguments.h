@@ -58,6 +58,23 @@ struct Files {
 using PointsArgument = std::variant<Files, std::reference_wrapper<Survey>, Strips>;
 /// A trajectory: its files or folder, or one that was read.
 using TrajectoryArgument = std::variant<Files, std::reference_wrapper<LoadedTrajectory>>;
+/// A trajectory; none.
+using OptionalTrajectory =
+    std::variant<std::monostate, Files, std::reference_wrapper<LoadedTrajectory>>;
+
+/// An optional argument as the argument that it holds.
+template <typename Argument, typename Optional>
+std::optional<Argument> given(const Optional& argument) {
+  return std::visit(
+      [](const auto& value) -> std::optional<Argument> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>)
+          return std::nullopt;
+        else
+          return Argument(value);
+      },
+      argument);
+}
+
 /// Control points or their CSV file; none.
 using ControlArgument =
     std::variant<std::monostate, std::filesystem::path, std::vector<ControlPoint>>;

@@ -19,6 +19,7 @@ void bindCorrection(pybind11::module_& m);
 void bindCheck(pybind11::module_& m);
 void bindRegistration(pybind11::module_& m);
 void bindIntensity(pybind11::module_& m);
+void bindWaveforms(pybind11::module_& m);
 void bindClassification(pybind11::module_& m);
 void bindPlanning(pybind11::module_& m);
 void bindSimulation(pybind11::module_& m);

@@ -180,21 +180,6 @@ void bindSettings(py::module_& m) {
 }
 
 using BeforeArgument = std::variant<std::monostate, Files, std::reference_wrapper<Survey>, Strips>;
-using OptionalTrajectory =
-    std::variant<std::monostate, Files, std::reference_wrapper<LoadedTrajectory>>;
-
-/// An optional argument as the argument that it holds.
-template <typename Argument, typename Optional>
-std::optional<Argument> given(const Optional& argument) {
-  return std::visit(
-      [](const auto& value) -> std::optional<Argument> {
-        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>)
-          return std::nullopt;
-        else
-          return Argument(value);
-      },
-      argument);
-}
 
 DeliveryCheckResult checkPoints(const PointsArgument& points,
                                 const std::optional<TrajectoryArgument>& flight,

@@ -46,6 +46,7 @@ PYBIND11_MODULE(_pcl_als, m) {
   bindCheck(m);
   bindRegistration(m);
   bindIntensity(m);
+  bindWaveforms(m);
   bindClassification(m);
   bindPlanning(m);
   bindSimulation(m);

@@ -85,7 +85,7 @@ const Fields<WaveformExample>& waveformExampleFields() {
        {"new_echo", &E::new_echo, "Whether no return of the scanner belongs to it"}});
   static const Fields<W> fields =
       Fields<W>(
-          "waveform", "A waveform and its echoes.",
+          "decomposed_waveform", "A waveform and its echoes.",
           {{"number", &W::number, "Of its point, or of its pulse in a PulseWaves file, from 0"},
            {"descriptor", &W::descriptor, "Index of its descriptor"},
            {"spacing_ns", &W::spacing, "Of its samples"},

@@ -33,8 +33,7 @@ void PulseEchoes::decompose(const Waveform& waveform, const std::vector<double>&
   WaveformDecomposer& decomposer = decomposerOf(waveform.reference.descriptor, waveform.descriptor);
   decomposer.decompose(waveform.counts.data(), waveform.counts.size(), found_);
   response_ = &decomposer.response();
-  samples_ = waveform.counts.size();
-  bounds_ = settings_.decompositionOf(waveform.descriptor);
+  waveform_ = &waveform;
   match(kFwhmOfGaussian * spacing_ * decomposer.response().width());
 }
 
@@ -61,11 +60,13 @@ void PulseEchoes::match(double reach) {
   }
 }
 
+/// Baseline and echoes at every 1 / \a per_sample from the first to the last sample.
 std::vector<double> PulseEchoes::model(int per_sample) const {
-  if (samples_ == 0) return {};
-  const auto last = static_cast<int>(samples_) - 1;
+  const std::size_t samples = waveform_->counts.size();
+  if (samples == 0) return {};
+  const auto last = static_cast<int>(samples) - 1;
   std::vector<double> values(static_cast<std::size_t>(last * per_sample + 1), found_.baseline);
-  std::vector<double> response(samples_), by_time(samples_), by_width(samples_);
+  std::vector<double> response(samples), by_time(samples), by_width(samples);
   for (int e = 0; e < found_.count; ++e) {
     for (int part = 0; part < per_sample; ++part) {
       const double time = at(e).time - static_cast<double>(part) / per_sample;
@@ -86,8 +87,33 @@ std::vector<double> PulseEchoes::model(int per_sample) const {
   return values;
 }
 
-bool PulseEchoes::isBound(double count) const {
-  return count >= bounds_.saturation || count <= bounds_.clipping;
+WaveformExample PulseEchoes::example(std::uint64_t number) const {
+  WaveformExample example;
+  example.number = number;
+  example.descriptor = waveform_->reference.descriptor;
+  example.spacing = spacing_ / kPicosecondsPerNanosecond;
+  example.baseline = found_.baseline;
+  example.baseline_std = found_.baseline_std;
+  example.noise = found_.noise;
+  example.samples = waveform_->counts;
+  example.model = model(WaveformExample::kModelValues);
+  const double width = example.spacing * kFwhmOfGaussian;
+  for (int e = 0; e < found_.count; ++e) {
+    const WaveformEcho& echo = at(e);
+    example.echoes.push_back({example.spacing * echo.time, example.spacing * echo.time_std,
+                              echo.amplitude, echo.amplitude_std, width * echo.width,
+                              width * echo.width_std, returnOf(e) < 0});
+  }
+  for (const double location : locations_)
+    example.returns.push_back(location / kPicosecondsPerNanosecond);
+  // Saturated and clipped samples are bounds.
+  const DecompositionSettings bounds = settings_.decompositionOf(waveform_->descriptor);
+  for (std::size_t i = 0; i < example.samples.size() && found_.noise > 0.0; ++i) {
+    if (example.samples[i] >= bounds.saturation || example.samples[i] <= bounds.clipping) continue;
+    example.largest_residual =
+        std::max(example.largest_residual, std::abs(example.residual(i)) / found_.noise);
+  }
+  return example;
 }
 
 double PulseEchoes::timeOf(int echo) const {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <pcl_als/waveform/waveform_examples.h>
-#include <pcl_als/waveform/waveform_reader.h>
 
 namespace pcl_als {
 namespace {
@@ -18,35 +17,6 @@ double mixed(std::uint64_t number) {
 }
 
 }  // namespace
-
-WaveformExample exampleOf(std::uint64_t number, const Waveform& waveform,
-                          const PulseEchoes& echoes) {
-  const Decomposition& found = echoes.found();
-  WaveformExample example;
-  example.number = number;
-  example.descriptor = waveform.reference.descriptor;
-  example.spacing = waveform.descriptor.spacing_ps / kPicosecondsPerNanosecond;
-  example.baseline = found.baseline;
-  example.baseline_std = found.baseline_std;
-  example.noise = found.noise;
-  example.samples = waveform.counts;
-  example.model = echoes.model(WaveformExample::kModelValues);
-  const double width = example.spacing * kFwhmOfGaussian;
-  for (int e = 0; e < found.count; ++e) {
-    const WaveformEcho& echo = found.echo[static_cast<std::size_t>(e)];
-    example.echoes.push_back({example.spacing * echo.time, example.spacing * echo.time_std,
-                              echo.amplitude, echo.amplitude_std, width * echo.width,
-                              width * echo.width_std, echoes.returnOf(e) < 0});
-  }
-  for (const double location : echoes.locations())
-    example.returns.push_back(location / kPicosecondsPerNanosecond);
-  for (std::size_t i = 0; i < example.samples.size() && found.noise > 0.0; ++i) {
-    if (echoes.isBound(example.samples[i])) continue;
-    example.largest_residual =
-        std::max(example.largest_residual, std::abs(example.residual(i)) / found.noise);
-  }
-  return example;
-}
 
 void WaveformExamples::insert(Chosen& among, double order, const WaveformExample& example) {
   const auto place = std::find_if(among.begin(), among.end(), [order](const Candidate& candidate) {

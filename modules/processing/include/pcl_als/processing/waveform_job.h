@@ -15,7 +15,7 @@
 #include <pcl_als/radiometry/reference_targets.h>
 #include <pcl_als/trajectory/trajectory.h>
 #include <pcl_als/waveform/echo_settings.h>
-#include <pcl_als/waveform/waveform_example.h>
+#include <pcl_als/waveform/pulse_echoes.h>
 
 namespace pcl_als {
 

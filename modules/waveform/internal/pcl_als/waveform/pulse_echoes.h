@@ -25,6 +25,40 @@ struct EchoAttributes {
   bool hasEcho() const { return amplitude == amplitude; }
 };
 
+/** \brief A waveform with its echoes, as it is shown to users.
+ *
+ * Times count from the first sample, in nanoseconds; amplitudes are digitizer counts, and widths
+ * are full widths at half maximum.
+ */
+struct WaveformExample {
+  /// Values of the adjusted waveform in the time of a sample.
+  static constexpr int kModelValues = 4;
+
+  struct Echo {
+    double time = 0.0, time_std = 0.0, amplitude = 0.0, amplitude_std = 0.0, width = 0.0,
+           width_std = 0.0;
+    bool new_echo = false;  ///< that the scanner did not return
+  };
+
+  std::uint64_t number = 0;  ///< of the first point that has it, or of its pulse, from 0
+  unsigned descriptor = 0;
+  double spacing = 0.0;  ///< of the samples, ns
+  double baseline = 0.0, baseline_std = 0.0;
+  double noise = 0.0;  ///< standard deviation of a sample
+  /// Of a sample that is not saturated or clipped, over the noise.
+  double largest_residual = 0.0;
+  std::vector<double> samples;
+  /// Baseline and echoes, at every spacing / kModelValues from the first to the last sample.
+  std::vector<double> model;
+  std::vector<Echo> echoes;     ///< in order of time
+  std::vector<double> returns;  ///< times of the discrete returns
+
+  /// Sample minus adjusted waveform.
+  double residual(std::size_t sample) const {
+    return samples[sample] - model[sample * kModelValues];
+  }
+};
+
 /** \brief The echoes of one pulse after the other, and the returns of the scanner they belong to.
  *
  * A return belongs to the nearest echo within the full width at half maximum of the response; of
@@ -37,17 +71,12 @@ class PulseEchoes {
   PulseEchoes(const std::map<unsigned, PulseResponse>& responses, const EchoSettings& settings);
 
   /// Decomposes the waveform of a pulse and pairs its echoes with returns.
+  /// \param waveform must exist as long as its example() is asked for
   /// \param locations of the returns, picoseconds from the first sample
   void decompose(const Waveform& waveform, const std::vector<double>& locations);
 
   const Decomposition& found() const { return found_; }
   int count() const { return found_.count; }
-  const std::vector<double>& locations() const { return locations_; }  ///< as given
-  /// The adjusted waveform, baseline and echoes, at every 1 / \a per_sample from the first to the
-  /// last sample.
-  std::vector<double> model(int per_sample) const;
-  /// Whether a sample of the waveform is a bound only: saturated or clipped.
-  bool isBound(double count) const;
   /// Index of the echo of a return, of the return of an echo; -1: none.
   int echoOf(std::size_t return_index) const { return echo_of_return_[return_index]; }
   int returnOf(int echo) const { return return_of_echo_[static_cast<std::size_t>(echo)]; }
@@ -62,18 +91,20 @@ class PulseEchoes {
   double intensityRatio(int echo) const;
   /// \param speed displacement along the pulse, metres per picosecond of the waveform
   EchoAttributes attributesOf(int echo, double speed) const;
+  /// The waveform, with a number to call it by.
+  WaveformExample example(std::uint64_t number) const;
 
  private:
   const WaveformEcho& at(int echo) const { return found_.echo[static_cast<std::size_t>(echo)]; }
   WaveformDecomposer& decomposerOf(unsigned index, const WaveformDescriptor& descriptor);
   void match(double reach);
+  std::vector<double> model(int per_sample) const;
 
   const std::map<unsigned, PulseResponse>& responses_;
   const EchoSettings& settings_;
   std::map<unsigned, WaveformDecomposer> decomposers_;
   const PulseResponse* response_ = nullptr;  ///< of the waveform
-  DecompositionSettings bounds_;             ///< of its samples
-  std::size_t samples_ = 0;
+  const Waveform* waveform_ = nullptr;       ///< that was decomposed last
   Decomposition found_;
   double spacing_ = 0.0;  ///< picoseconds
   std::vector<double> locations_;

@@ -9,13 +9,8 @@
 #include <vector>
 
 #include <pcl_als/waveform/pulse_echoes.h>
-#include <pcl_als/waveform/waveform_example.h>
 
 namespace pcl_als {
-
-/// The example of the waveform that \a echoes has decomposed.
-WaveformExample exampleOf(std::uint64_t number, const Waveform& waveform,
-                          const PulseEchoes& echoes);
 
 /** \brief Chooses among waveforms: two of each number of echoes (none, one, … five and more), by
  * chance, and the two with the largest residuals.
