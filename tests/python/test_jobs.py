@@ -4,6 +4,7 @@
 import filecmp
 import json
 import os
+import pickle
 import subprocess
 import unittest
 
