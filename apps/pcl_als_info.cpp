@@ -6,6 +6,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/number_text.h>
+#include <pcl_als/common/printable.h>
 #include <pcl_als/io/dataset_inventory.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/flight_assessment.h>

@@ -5,7 +5,6 @@
 #include <string>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/warning.h>
 
 #include "command_line.h"
 

@@ -17,6 +17,7 @@
 #include <pcl_als/filters/system_bias_correction.h>
 #include <pcl_als/radiometry/atmosphere.h>
 #include <pcl_als/radiometry/overlap_adjustment.h>
+#include <pcl_als/radiometry/radiometric_cells.h>
 
 #include "simulated_strips.h"
 #include "simulated_survey.h"

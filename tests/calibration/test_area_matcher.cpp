@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/survey/survey_map.h>
 
 #include "area_matcher.h"

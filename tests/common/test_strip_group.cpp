@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/strip_group.h>
-#include <pcl_als/common/system_lookup.h>
 
 namespace pcl_als {
 namespace {

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include <pcl_als/common/calibration_result.h>
-#include <pcl_als/history/calibration_mission.h>
+#include <pcl_als/history/calibration_history.h>
 
 namespace pcl_als::test {
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/io/dataset_inventory.h>
 #include <pcl_als/las/las_writer.h>
 

@@ -12,7 +12,7 @@
 #include <pcl/io/pcd_io.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/point_reader.h>
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/io/strip_loader.h>
 #include <pcl_als/io/strip_writer.h>
 #include <pcl_als/las/las_file.h>

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/io/time_scale.h>
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/filters/system_bias_correction.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/strip_loader.h>

@@ -9,6 +9,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/file_correction.h>
 
+#include "point_deviations.h"
 #include "test_files.h"
 #include "uncertainty_check.h"
 

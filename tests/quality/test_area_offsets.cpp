@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/quality/area_offsets.h>
 
 #include "swath_scenes.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/quality/overlap_trends.h>
+#include <pcl_als/quality/pair_assessment.h>
 #include <pcl_als/quality/strip_course.h>
 
 namespace pcl_als {

@@ -11,6 +11,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/radiometry/overlap_adjustment.h>
+#include <pcl_als/radiometry/radiometric_cells.h>
 
 namespace pcl_als {
 namespace {

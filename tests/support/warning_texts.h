@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <pcl_als/common/warning.h>
+#include <pcl_als/common/errors.h>
 
 namespace pcl_als::test {
 

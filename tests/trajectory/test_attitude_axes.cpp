@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/common/attitude_form.h>
 #include <pcl_als/trajectory/attitude_axes.h>
 
 namespace pcl_als {

@@ -6,7 +6,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/trajectory/correction_sizes.h>
+#include <pcl_als/trajectory/coverage_count.h>
 #include <pcl_als/trajectory/system_correction.h>
 #include <pcl_als/trajectory/trajectory.h>
 #include <pcl_als/trajectory/trajectory_screening.h>

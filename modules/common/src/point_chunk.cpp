@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <pcl_als/common/point_chunk.h>
+#include <pcl_als/common/lidar_return.h>
 
 namespace pcl_als {
 

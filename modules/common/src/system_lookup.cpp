@@ -2,8 +2,9 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 
+#include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/system_lookup.h>
+#include <pcl_als/common/strip_group.h>
 
 namespace pcl_als {
 

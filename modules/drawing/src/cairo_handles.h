@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <cairo.h>
 
-#include <pcl_als/drawing/image.h>
+#include <pcl_als/drawing/canvas.h>
 
 namespace pcl_als::detail {
 

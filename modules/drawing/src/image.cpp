@@ -6,7 +6,7 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/drawing/image.h>
+#include <pcl_als/drawing/canvas.h>
 
 #include "cairo_handles.h"
 

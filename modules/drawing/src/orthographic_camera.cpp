@@ -6,7 +6,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/drawing/orthographic_camera.h>
+#include <pcl_als/drawing/pixel_thinning.h>
 
 namespace pcl_als {
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/drawing/map_furniture.h>
+
 namespace pcl_als::detail {
 namespace {
 

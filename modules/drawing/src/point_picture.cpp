@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/drawing/map_furniture.h>
 #include <pcl_als/drawing/point_picture.h>
 #include <pcl_als/drawing/ticks.h>
 

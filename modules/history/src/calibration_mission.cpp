@@ -9,7 +9,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/parameter_covariance.h>
-#include <pcl_als/history/calibration_mission.h>
+#include <pcl_als/history/calibration_history.h>
 
 namespace pcl_als {
 namespace {

@@ -10,7 +10,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/number_text.h>
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/time_scale.h>
 #include <pcl_als/las/external_waveforms.h>
 #include <pcl_als/las/las_file.h>

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 
 #include "week_rollover.h"
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include <pcl_als/common/attitude_form.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/statistics.h>

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include <pcl_als/common/attitude_form.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/common/text_values.h>

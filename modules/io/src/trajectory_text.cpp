@@ -8,7 +8,7 @@
 #include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/time_scale.h>
 
 #include "csv_table.h"

@@ -10,7 +10,7 @@
 #include <pcl_als/common/listed_names.h>
 #include <pcl_als/common/printable.h>
 #include <pcl_als/common/text_values.h>
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 
 namespace pcl_als::detail {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <pcl_als/common/input_file.h>
-#include <pcl_als/common/point_chunk.h>
+#include <pcl_als/common/lidar_return.h>
 
 #include "pcd_header.h"
 

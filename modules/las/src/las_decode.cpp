@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/las/las_record.h>
 
 #include "las_bytes.h"

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/las/las_record.h>
 
 #include "las_bytes.h"

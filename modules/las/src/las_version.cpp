@@ -5,7 +5,7 @@
 #include <optional>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/las/external_waveforms.h>
 #include <pcl_als/las/las_compatibility.h>

@@ -8,10 +8,11 @@
 #include <pcl_als/common/point_files.h>
 #include <pcl_als/processing/check_delivery.h>
 #include <pcl_als/processing/delivery_checker.h>
-#include <pcl_als/processing/separation_image.h>
 #include <pcl_als/quality/accuracy_standards.h>
 #include <pcl_als/quality/swath_separation.h>
 #include <pcl_als/survey/surveyed_file.h>
+
+#include "separation_image.h"
 
 namespace pcl_als {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/system_lookup.h>
+#include <pcl_als/common/strip_group.h>
 #include <pcl_als/io/strip_naming.h>
 #include <pcl_als/processing/file_correction.h>
 

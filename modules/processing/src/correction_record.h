@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include <pcl_als/common/warning.h>
+#include <pcl_als/common/errors.h>
 #include <pcl_als/io/applied_correction.h>
 
 namespace pcl_als::detail {

@@ -7,6 +7,7 @@
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/processing/delivery_checker.h>
+#include <pcl_als/quality/strip_alignment.h>
 #include <pcl_als/survey/area_index.h>
 #include <pcl_als/survey/offset_from_block.h>
 #include <pcl_als/survey/survey_map.h>

@@ -10,6 +10,7 @@
 #include <pcl_als/common/listed_names.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/processing/delivery_checker.h>
+#include <pcl_als/quality/strip_alignment.h>
 #include <pcl_als/registration/patch_alignment.h>
 #include <pcl_als/survey/survey_map.h>
 

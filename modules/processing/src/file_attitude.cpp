@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/las/las_file.h>
 

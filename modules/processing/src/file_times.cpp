@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/las/las_file.h>
 

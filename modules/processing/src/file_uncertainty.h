@@ -12,10 +12,11 @@
 #include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/file_correction.h>
 #include <pcl_als/processing/intensity_input.h>
-#include <pcl_als/processing/point_deviations.h>
 #include <pcl_als/radiometry/local_surfaces.h>
 #include <pcl_als/trajectory/point_uncertainty.h>
 #include <pcl_als/trajectory/system_correction.h>
+
+#include "point_deviations.h"
 
 namespace pcl_als::detail {
 

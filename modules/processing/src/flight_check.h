@@ -5,12 +5,11 @@
 #include <memory>
 #include <string>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/lidar_return.h>
-#include <pcl_als/common/point_chunk.h>
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/common/strip.h>
 #include <pcl_als/common/time_alignment.h>
-#include <pcl_als/common/warning.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/trajectory/trajectory.h>
 

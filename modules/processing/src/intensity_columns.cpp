@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/common/vector_clones.h>
 #include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/survey/strip_assignment.h>

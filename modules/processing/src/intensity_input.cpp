@@ -9,7 +9,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/parallel.h>
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/intensity_input.h>

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/point_reader.h>
 

@@ -12,6 +12,7 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/processing/intensity_run.h>
+#include <pcl_als/radiometry/radiometric_cells.h>
 #include <pcl_als/survey/strip_assignment.h>
 #include <pcl_als/survey/survey_messages.h>
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include <pcl_als/common/point_chunk.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/time_alignment.h>
 #include <pcl_als/processing/intensity_input.h>
 

@@ -14,6 +14,8 @@
 #include <pcl_als/processing/land_cover_job.h>
 #include <pcl_als/processing/point_classes.h>
 
+#include "strip_rasters.h"
+
 namespace pcl_als {
 namespace {
 

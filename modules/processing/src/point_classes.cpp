@@ -8,7 +8,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/las/las_file.h>

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "point_deviations.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include <pcl_als/processing/point_deviations.h>
+#include <pcl_als/processing/file_correction.h>
 
 #include "deviation_sum.h"
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "separation_image.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <pcl_als/common/parallel.h>
-#include <pcl_als/drawing/image.h>
+#include <pcl_als/drawing/canvas.h>
 #include <pcl_als/io/raster_io.h>
-#include <pcl_als/processing/separation_image.h>
+#include <pcl_als/processing/checked_block.h>
 #include <pcl_als/quality/accuracy_standards.h>
 #include <pcl_als/quality/swath_separation.h>
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <pcl_als/common/point_chunk.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/las/las_writer.h>
 #include <pcl_als/processing/simulated_survey.h>
 

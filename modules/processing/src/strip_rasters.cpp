@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "strip_rasters.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/memory.h>
 #include <pcl_als/common/parallel.h>
-#include <pcl_als/common/point_flag.h>
 #include <pcl_als/common/shared_work.h>
 #include <pcl_als/io/measured_box.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/raster_io.h>
-#include <pcl_als/processing/strip_rasters.h>
+#include <pcl_als/processing/land_cover_job.h>
 #include <pcl_als/survey/survey_messages.h>
 #include <pcl_als/survey/survey_reader.h>
 

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
-#include <pcl_als/drawing/orthographic_camera.h>
 #include <pcl_als/drawing/pixel_thinning.h>
 #include <pcl_als/drawing/voxel_thinning.h>
 #include <pcl_als/processing/picture/picture_source.h>

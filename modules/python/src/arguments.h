@@ -17,7 +17,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <pcl_als/common/survey_types.h>
-#include <pcl_als/io/strip_columns.h>
+#include <pcl_als/io/strip_loader.h>
 #include <pcl_als/processing/trajectory_loading.h>
 #include <pcl_als/survey/survey_reader.h>
 

@@ -12,7 +12,7 @@
 #include <pybind11/pybind11.h>
 
 #include <pcl_als/common/point_types.h>
-#include <pcl_als/io/strip_columns.h>
+#include <pcl_als/io/strip_loader.h>
 
 namespace pcl_als::python {
 

@@ -4,6 +4,7 @@
 
 #include <pcl_als/processing/file_motion.h>
 #include <pcl_als/processing/pair_alignment.h>
+#include <pcl_als/quality/strip_alignment.h>
 #include <pcl_als/registration/iterative_closest_patch.h>
 #include <pcl_als/report/alignment_report.h>
 

@@ -12,7 +12,7 @@
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/common/statistics.h>
-#include <pcl_als/quality/control_offsets.h>
+#include <pcl_als/quality/control_check.h>
 
 namespace pcl_als {
 namespace {

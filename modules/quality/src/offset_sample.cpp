@@ -7,7 +7,7 @@
 #include <pcl_als/adjustment/clustered_regression.h>
 #include <pcl_als/adjustment/overlap_variation.h>
 #include <pcl_als/common/statistics.h>
-#include <pcl_als/quality/offset_sample.h>
+#include <pcl_als/quality/pair_assessment.h>
 
 namespace pcl_als {
 

@@ -9,7 +9,7 @@
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/quality/overlap_trends.h>
+#include <pcl_als/quality/pair_assessment.h>
 
 namespace pcl_als {
 namespace {

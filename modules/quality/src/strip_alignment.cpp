@@ -7,6 +7,7 @@
 #include <pcl_als/quality/area_offsets.h>
 #include <pcl_als/quality/strip_alignment.h>
 #include <pcl_als/registration/patch_alignment.h>
+#include <pcl_als/registration/point_view.h>
 
 #include "strip_triples.h"
 
@@ -70,19 +71,6 @@ PatchAlignmentResult registerStrips(const std::vector<AreaOffsets>& areas, int a
     return nothing;
   }
   return registerPatches(viewOf(source, origin), viewOf(target, origin), settings);
-}
-
-const char* toString(PatchAlignmentResult::Status status) {
-  switch (status) {
-    case PatchAlignmentResult::Status::converged:
-      return "converged";
-    case PatchAlignmentResult::Status::not_converged:
-      return "not_converged";
-    case PatchAlignmentResult::Status::too_few_pairs:
-      return "too_few_pairs";
-    default:
-      return "no_overlap";
-  }
 }
 
 std::vector<MotionClosure> closeMotions(const std::vector<PairMotion>& pairs) {

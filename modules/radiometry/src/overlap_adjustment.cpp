@@ -9,6 +9,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/radiometry/overlap_adjustment.h>
+#include <pcl_als/radiometry/radiometric_cells.h>
 
 #include "overlap_equations.h"
 

@@ -10,6 +10,7 @@
 
 #include <pcl_als/adjustment/robust_iteration.h>
 #include <pcl_als/radiometry/overlap_adjustment.h>
+#include <pcl_als/radiometry/radiometric_cells.h>
 
 namespace pcl_als::detail {
 

@@ -6,6 +6,7 @@
 #include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/radiometry/overlap_adjustment.h>
 #include <pcl_als/radiometry/radiometric_cells.h>
 
 namespace pcl_als {

@@ -13,6 +13,19 @@
 
 namespace pcl_als {
 
+const char* toString(PatchAlignmentResult::Status status) {
+  switch (status) {
+    case PatchAlignmentResult::Status::converged:
+      return "converged";
+    case PatchAlignmentResult::Status::not_converged:
+      return "not_converged";
+    case PatchAlignmentResult::Status::too_few_pairs:
+      return "too_few_pairs";
+    default:
+      return "no_overlap";
+  }
+}
+
 const char* PatchAlignmentResult::name(int parameter) {
   static constexpr const char* kNames[kParameters] = {"XT", "YT", "ZT", "omega", "phi", "kappa"};
   return kNames[parameter];

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <pcl_als/registration/patch_alignment.h>
+#include <pcl_als/registration/point_view.h>
 
 #include "alignment_areas.h"
 #include "plan_cells.h"

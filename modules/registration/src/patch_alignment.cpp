@@ -9,6 +9,7 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/registration/patch_alignment.h>
+#include <pcl_als/registration/point_view.h>
 
 #include "alignment_areas.h"
 #include "alignment_report.h"

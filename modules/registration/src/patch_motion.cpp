@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/registration/patch_motion.h>
+#include <pcl_als/registration/transformation_estimation_patch.h>
 
 #include "patch_adjustment.h"
 

@@ -4,9 +4,8 @@
 
 #include <pcl_als/common/fields.h>
 #include <pcl_als/quality/control_check.h>
-#include <pcl_als/quality/offset_sample.h>
 #include <pcl_als/quality/pair_assessment.h>
-#include <pcl_als/registration/patch_alignment_result.h>
+#include <pcl_als/registration/patch_alignment.h>
 
 namespace pcl_als {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/large_correction.h>
 #include <pcl_als/common/survey_types.h>
-#include <pcl_als/common/warning.h>
 #include <pcl_als/drawing/block_map.h>
 #include <pcl_als/report/html_report.h>
 #include <pcl_als/report/report_origin.h>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/simulation/radiometry.h>
 
 namespace pcl_als::simulation {

@@ -9,8 +9,8 @@
 
 #include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/number_text.h>
-#include <pcl_als/common/point_flag.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/survey/survey_map.h>
 

@@ -10,7 +10,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
-#include <pcl_als/tin/suitable_points.h>
+#include <pcl_als/tin/surface_criterion.h>
 
 namespace pcl_als {
 namespace {

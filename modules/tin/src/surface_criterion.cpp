@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <pcl_als/common/statistics.h>
+#include <pcl_als/tin/orientation_classes.h>
 #include <pcl_als/tin/surface_criterion.h>
 
 namespace pcl_als {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/common/attitude_form.h>
 #include <pcl_als/trajectory/attitude_axes.h>
 
 namespace pcl_als {

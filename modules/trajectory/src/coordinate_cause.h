@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/common/warning.h>
+#include <pcl_als/common/errors.h>
 
 namespace pcl_als::detail {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include <pcl_als/trajectory/correction_sizes.h>
+#include <pcl_als/trajectory/coverage_count.h>
 
 namespace pcl_als {
 namespace {

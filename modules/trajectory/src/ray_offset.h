@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/common/warning.h>
+#include <pcl_als/common/errors.h>
 #include <pcl_als/trajectory/path_evidence.h>
 #include <pcl_als/trajectory/trajectory.h>
 

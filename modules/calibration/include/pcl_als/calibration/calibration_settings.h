@@ -10,11 +10,11 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/common/bias_list.h>
+#include <pcl_als/common/bias_prior.h>
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/common/strip_group.h>
+#include <pcl_als/common/survey_types.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/survey/area_selection.h>
 #include <pcl_als/tin/surface_criterion.h>
 
 namespace pcl_als {

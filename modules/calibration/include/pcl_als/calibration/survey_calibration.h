@@ -17,8 +17,8 @@
 #include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/point_file_info.h>
 #include <pcl_als/common/progress.h>
+#include <pcl_als/common/survey_types.h>
 #include <pcl_als/io/trajectory_io.h>
-#include <pcl_als/survey/strip_choice.h>
 #include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/trajectory.h>
 

@@ -12,17 +12,15 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/common/attitude_source.h>
 #include <pcl_als/common/bias_prior.h>
 #include <pcl_als/common/calibration_verdict.h>
 #include <pcl_als/common/error_source.h>
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/large_correction.h>
 #include <pcl_als/common/recovered_attitude.h>
-#include <pcl_als/common/scan_planes.h>
 #include <pcl_als/common/strip_group.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/common/warning.h>
 
 namespace pcl_als {
 

@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 #include <string>
-
-#include <pcl_als/common/printable.h>
+#include <utility>
+#include <vector>
 
 namespace pcl_als {
 
@@ -42,8 +42,7 @@ enum class Hint {
 /// option and what to do, printable() whatever it quotes.
 class Error : public std::runtime_error {
  public:
-  explicit Error(const std::string& message, Hint hint = Hint::none)
-      : std::runtime_error(printable(message)), remedy_(hint) {}
+  explicit Error(const std::string& message, Hint hint = Hint::none);
   Hint hint() const { return remedy_; }
 
  private:
@@ -65,5 +64,25 @@ class InputError : public Error {
 
 // A numerical outcome (too few pairs, rank deficiency, no convergence) is not an exception: it is a
 // status with a message in the result. Tools write the result and end with exit status 3.
+
+/// What a user should know of a result, in one line without names of options, and what a caller may
+/// set about it.
+struct Warning {
+  std::string text;
+  Hint hint = Hint::none;
+
+  // Implicit, because most warnings are texts only.
+  Warning(std::string what, Hint with = Hint::none) : text(std::move(what)), hint(with) {}
+  Warning(const char* what, Hint with = Hint::none) : text(what), hint(with) {}
+};
+using Warnings = std::vector<Warning>;
+
+/// The texts of warnings, in order.
+inline std::vector<std::string> textsOf(const Warnings& warnings) {
+  std::vector<std::string> texts;
+  texts.reserve(warnings.size());
+  for (const Warning& warning : warnings) texts.push_back(warning.text);
+  return texts;
+}
 
 }  // namespace pcl_als

@@ -6,6 +6,7 @@
 #define PCL_NO_PRECOMPILE
 #endif
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -14,7 +15,7 @@
 #include <pcl/register_point_struct.h>
 #include <pcl/type_traits.h>
 
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 
 namespace pcl_als {
 
@@ -23,8 +24,8 @@ namespace pcl_als {
 
 /** \brief A LiDAR return: 48 bytes, relative to a LocalFrame.
  *
- * Registered with PCL, so PCD files and PCL's filters keep every field (see impl/centroid_point.hpp
- * for what pcl::VoxelGrid does with the fields that have no mean, such as gps_time).
+ * Registered with PCL, so PCD files and PCL's filters keep every field (see below for what
+ * pcl::VoxelGrid does with the fields that have no mean, such as gps_time).
  */
 struct EIGEN_ALIGN16 PointLidar {
   // What PCL_ADD_POINT4D adds. It stands in <pcl/point_types.h>, whose many other point types would
@@ -76,4 +77,43 @@ POINT_CLOUD_REGISTER_POINT_STRUCT(
                            classification)(std::uint8_t, flags, flags)(std::uint8_t, user_data,
                                                                        user_data))
 
-#include <pcl_als/common/impl/centroid_point.hpp>
+// pcl::VoxelGrid and related filters merge points through pcl::CentroidPoint, which knows how to
+// average a few fields and resets all others. A strip's time, return or source id has no mean
+// (points of two passes may share a voxel), so a merged PointLidar takes position and intensity as
+// means and every other field, bit for bit, from its first point.
+
+namespace pcl {
+
+// Declared, not included: PCL's headers that use it bring the template and copyPoint().
+template <typename PointT>
+class CentroidPoint;
+template <typename PointInT, typename PointOutT>
+void copyPoint(const PointInT& in, PointOutT& out);
+
+template <>
+class CentroidPoint<pcl_als::PointLidar> {
+ public:
+  void add(const pcl_als::PointLidar& point) {
+    if (count_ == 0) first_ = point;
+    sum_ += Eigen::Vector4d(point.x, point.y, point.z, point.intensity);
+    ++count_;
+  }
+
+  template <typename PointOutT>
+  void get(PointOutT& out) const {
+    if (count_ == 0) return;
+    const Eigen::Vector4f mean = (sum_ / static_cast<double>(count_)).template cast<float>();
+    pcl_als::PointLidar merged = first_;
+    merged.x = mean[0], merged.y = mean[1], merged.z = mean[2], merged.intensity = mean[3];
+    pcl::copyPoint(merged, out);
+  }
+
+  std::size_t getSize() const { return count_; }
+
+ private:
+  pcl_als::PointLidar first_;
+  Eigen::Vector4d sum_ = Eigen::Vector4d::Zero();
+  std::size_t count_ = 0;
+};
+
+}  // namespace pcl

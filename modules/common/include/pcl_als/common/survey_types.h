@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,6 +24,15 @@ struct TrajectorySample {
   bool hasAttitude() const {
     return std::isfinite(roll) && std::isfinite(pitch) && std::isfinite(heading);
   }
+};
+
+/// How a file gives attitudes, as far as this leaves their axes open.
+enum class AttitudeForm {
+  heading,  ///< nothing is open: roll right wing down, pitch nose up, heading clockwise from north
+  yaw,      ///< the heading is a yaw, which some write counter-clockwise from east
+  /// The rotation from the body to the local frame: of axes forward, right, down to north, east,
+  /// down, or of axes forward, left, up to east, north, up.
+  quaternion,
 };
 
 /// A surveyed point that strips are compared with.
@@ -75,6 +86,46 @@ struct ReferenceTarget {
 /// Gain of the receiver as a function of the value of the automatic gain control (AGC).
 struct GainStep {
   double value = 0.0, gain = 1.0;
+};
+
+/// A place or an area whose class is known: training or check. Metres, ground frame.
+struct ClassSite {
+  std::string name;                                 ///< of the class
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< of a point
+  /// Of an area: closed rings, outer ones and holes alike; inside is what an odd number of them
+  /// surround.
+  std::vector<std::vector<Eigen::Vector2d>> rings;
+
+  bool isArea() const { return !rings.empty(); }
+};
+
+/// A check point with what it is and what it was classified as.
+struct CheckedSite {
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  std::string reference;
+  std::string classified;  ///< empty: the classification gave none
+};
+
+/// Which areas of a block SurveyMap::selectAreas() chooses.
+struct AreaSelection {
+  double area_size = 50.0;  ///< metres
+  double margin = 8.0;      ///< metres
+  /// points in the chosen areas and their margins, all strips
+  std::size_t point_budget = 4'000'000;
+};
+
+/// Choice of the strips to be used.
+struct StripChoice {
+  std::vector<std::string> only;     ///< names of the strips that are used; empty: all
+  std::vector<std::string> without;  ///< names of strips to exclude
+  bool split = false;                ///< cut into flight lines by splitTrack()
+  /// Without split: cut strips that are certainly several flight lines (leadBack()), as they are
+  /// compared with others and not with themselves.
+  bool divide_lines = false;
+  /// Without split: keep points of GPS time 0 in files that have times.
+  bool keep_timeless = false;
+  /// The channels of the scanner in a strip are strips of their own: 3.ch0, 3.ch1 (SurveyReader).
+  bool by_channel = false;
 };
 
 }  // namespace pcl_als

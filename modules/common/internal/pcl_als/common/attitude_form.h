@@ -9,15 +9,6 @@
 
 namespace pcl_als {
 
-/// How a file gives attitudes, as far as this leaves their axes open.
-enum class AttitudeForm {
-  heading,  ///< nothing is open: roll right wing down, pitch nose up, heading clockwise from north
-  yaw,      ///< the heading is a yaw, which some write counter-clockwise from east
-  /// The rotation from the body to the local frame: of axes forward, right, down to north, east,
-  /// down, or of axes forward, left, up to east, north, up.
-  quaternion,
-};
-
 /// An angle in [0, 2 pi).
 inline double wholeTurn(double angle) {
   const double turn = 2.0 * kPi, rest = std::fmod(angle, turn);

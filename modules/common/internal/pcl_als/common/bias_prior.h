@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/common/attitude_source.h>
+#include <pcl_als/common/recovered_attitude.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include <pcl_als/common/point_chunk.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/point_file_info.h>
 
 namespace pcl_als {

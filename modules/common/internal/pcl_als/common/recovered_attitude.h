@@ -2,9 +2,23 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 namespace pcl_als {
+
+/// Source of the sensor's attitude in the model of a calibration; also needed to apply its
+/// biases.
+enum class AttitudeSource {
+  none,        ///< none: vertical, aligned with the flight line (quasi-rigorous)
+  points,      ///< pitch and crab from the points (quasi-rigorous, AttitudeRecovery)
+  trajectory,  ///< roll, pitch and heading of the trajectory (rigorous)
+  nominal,     ///< level, heading along the course (rigorous, for scanners that are not linear)
+};
+
+std::string_view toString(AttitudeSource attitude);
+/// "rigorous" where the attitude is the trajectory's or nominal, else "quasi_rigorous".
+std::string_view modelName(AttitudeSource attitude);
 
 /// Pitch (nose up) and crab (turn of the body against the line of flight, counter-clockwise), rad.
 struct PitchAndCrab {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <pcl_als/drawing/canvas.h>
-#include <pcl_als/drawing/map_furniture.h>
 #include <pcl_als/drawing/pixel_thinning.h>
 
 namespace pcl_als {

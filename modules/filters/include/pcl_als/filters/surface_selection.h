@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <pcl_als/filters/point_selection.h>
-#include <pcl_als/tin/suitable_points.h>
+#include <pcl_als/tin/surface_criterion.h>
 
 namespace pcl_als {
 

@@ -14,7 +14,6 @@
 #include <pcl_als/common/local_frame.h>
 #include <pcl_als/common/point_fields.h>
 #include <pcl_als/common/time_alignment.h>
-#include <pcl_als/common/time_unit.h>
 
 namespace pcl_als {
 

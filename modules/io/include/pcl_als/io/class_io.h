@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include <pcl_als/common/class_site.h>
 #include <pcl_als/common/linear_units.h>
+#include <pcl_als/common/survey_types.h>
 
 namespace pcl_als {
 

@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include <pcl_als/common/point_chunk.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/point_file_info.h>
 #include <pcl_als/io/point_window.h>
 

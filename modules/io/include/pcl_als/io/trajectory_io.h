@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/common/attitude_form.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/linear_units.h>
 #include <pcl_als/common/survey_types.h>

@@ -13,8 +13,8 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/time_resolution.h>
-#include <pcl_als/common/warning.h>
 #include <pcl_als/io/point_reader.h>
 
 namespace pcl_als {

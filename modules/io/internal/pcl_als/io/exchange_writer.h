@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include <pcl_als/common/point_chunk.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/point_file_info.h>
 
 namespace pcl_als {

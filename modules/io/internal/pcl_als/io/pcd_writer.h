@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/local_frame.h>
-#include <pcl_als/common/point_chunk.h>
 
 namespace pcl_als {
 

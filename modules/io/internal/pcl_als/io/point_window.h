@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <pcl_als/common/point_chunk.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/point_file_info.h>
 
 namespace pcl_als {

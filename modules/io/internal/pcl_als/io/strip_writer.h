@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include <pcl_als/io/strip_columns.h>
+#include <pcl_als/io/strip_loader.h>
 
 namespace pcl_als {
 

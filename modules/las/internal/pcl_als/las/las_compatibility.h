@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include <pcl_als/common/point_chunk.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/las/las_file.h>
 
 namespace pcl_als {

@@ -10,8 +10,8 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/common/point_chunk.h>
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/lidar_return.h>
+#include <pcl_als/common/time_alignment.h>
 
 namespace pcl_als {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <pcl_als/common/progress.h>
+#include <pcl_als/common/survey_types.h>
 #include <pcl_als/processing/checked_block.h>
-#include <pcl_als/survey/strip_choice.h>
 #include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {

@@ -11,8 +11,8 @@
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/progress.h>
+#include <pcl_als/common/raster.h>
 #include <pcl_als/io/trajectory_io.h>
-#include <pcl_als/processing/point_deviations.h>
 #include <pcl_als/trajectory/coverage_count.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -44,6 +44,16 @@ struct FileCorrectionOptions {
   /// With standard deviations: side of the cells of FileCorrectionResult::deviation_raster, metres;
   /// 0: none.
   double deviation_cell = 0.0;
+};
+
+/// Number, mean squares and share with a known surface of points with standard deviations.
+struct DeviationSummary {
+  std::uint64_t points = 0;
+  std::uint64_t on_surface = 0;  ///< points whose slope is known
+  std::uint64_t unknown = 0;     ///< further points, without trajectory: no standard deviations
+  double horizontal = 0.0, vertical = 0.0;  ///< root mean squares, metres
+
+  std::string describe() const;  ///< a sentence for the user; empty without points
 };
 
 struct FileCorrectionResult {

@@ -10,15 +10,12 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/survey_types.h>
-#include <pcl_als/common/warning.h>
-#include <pcl_als/processing/separation_image.h>
 #include <pcl_als/quality/control_check.h>
 #include <pcl_als/quality/pair_assessment.h>
-#include <pcl_als/quality/strip_alignment.h>
-#include <pcl_als/quality/surface_limits.h>
-#include <pcl_als/survey/area_selection.h>
+#include <pcl_als/registration/patch_alignment.h>
 
 namespace pcl_als {
 
@@ -74,6 +71,25 @@ PairCounts countPairs(const std::vector<CheckedPair>& pairs);
 /// Pairs of strips that overlap and were not measured, with the reason or the distance, in one
 /// sentence for each of both; at most five are named in each. Empty where all were measured.
 std::vector<std::string> unmeasuredPairs(const std::vector<CheckedPair>& pairs);
+
+/// A reduced swath separation image: at every place the most frequent colour of the cells that two
+/// strips cover.
+struct SeparationOverview {
+  enum Code : std::uint8_t { nothing, one_strip, within_limit, within_twice, beyond };
+  int columns = 0, rows = 0;
+  double cell = 0.0;                                     ///< metres
+  Eigen::Vector2d north_west = Eigen::Vector2d::Zero();  ///< metres, ground frame
+  std::vector<std::uint8_t> codes;                       ///< row by row from the north-west
+};
+
+/// Numbers of cells of a swath separation image by colour, and its georeference.
+struct SeparationSummary {
+  double cell = 0.0;   ///< metres
+  double limit = 0.0;  ///< metres: green up to it, yellow up to twice as much
+  std::uint64_t green = 0, yellow = 0, red = 0;
+  std::vector<std::string> files;
+  SeparationOverview overview;
+};
 
 /// Result of a check of one set of strips.
 struct CheckedBlock {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/common/warning.h>
+#include <pcl_als/common/errors.h>
 #include <pcl_als/processing/trajectory_loading.h>
 #include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/scanner_detection.h>

@@ -15,8 +15,9 @@
 #include <pcl_als/common/shared_work.h>
 #include <pcl_als/common/time_alignment.h>
 #include <pcl_als/processing/intensity_input.h>
-#include <pcl_als/processing/intensity_settings.h>
+#include <pcl_als/processing/intensity_job.h>
 #include <pcl_als/radiometry/overlap_adjustment.h>
+#include <pcl_als/radiometry/radiometric_cells.h>
 #include <pcl_als/radiometry/reference_targets.h>
 #include <pcl_als/survey/survey_reader.h>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/progress.h>
-#include <pcl_als/common/warning.h>
 #include <pcl_als/processing/trajectory_loading.h>
 #include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/trajectory_reconstruction.h>

@@ -12,8 +12,7 @@
 
 #include <pcl_als/common/byte_stream.h>
 #include <pcl_als/quality/checked_points.h>
-#include <pcl_als/quality/offset_sample.h>
-#include <pcl_als/quality/surface_limits.h>
+#include <pcl_als/quality/pair_assessment.h>
 #include <pcl_als/tin/patch_surface.h>
 
 namespace pcl_als {

@@ -7,14 +7,86 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/survey_types.h>
-#include <pcl_als/common/warning.h>
 #include <pcl_als/quality/accuracy_standards.h>
-#include <pcl_als/quality/control_offsets.h>
-#include <pcl_als/quality/offset_sample.h>
-#include <pcl_als/quality/surface_limits.h>
+#include <pcl_als/quality/pair_assessment.h>
 
 namespace pcl_als {
+
+/// One strip at one control point.
+struct ControlDifference {
+  std::string point, strip;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the point, metres, ground frame
+  double above = 0.0;                                  ///< strip - control, metres
+  double slope = 0.0;                                  ///< of the surface, radians
+  double roughness = 0.0;                              ///< metres
+  std::string unfit;  ///< reason for which it is excluded from the statistics; empty: it is used
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the surface, unit, upward
+  double slope_std = 0.0;  ///< radians; of the normal, by the roughness of the surface
+};
+
+/// A height offset that most control points have in common.
+struct CommonOffset {
+  std::string strip;               ///< the strip that has it; empty: all strips
+  double offset = 0.0, std = 0.0;  ///< strips - control, metres; std: of this mean
+  std::size_t points = 0;          ///< points that agree on it
+  std::size_t covered = 0;         ///< points where a surface was measured
+
+  /// "the strips lie 1.50 ± 0.01 m below all 18 control points"
+  std::string describe() const;
+};
+
+/// Two groups of control points above which one strip lies at different heights.
+struct ContradictingControl {
+  std::string strip;
+  double separation = 0.0;                 ///< metres, between the groups' means
+  std::vector<std::string> lower, higher;  ///< ids, by the height of the strip above the points
+
+  /// "strip 3 lies 0.298 m higher above 19 of them (A, B, …) than above the other 18 (C, D, …)"
+  std::string describe() const;
+};
+
+/** \brief Finds out whether control points contradict each other.
+ *
+ * The heights of one strip are compared, so that an offset between strips cannot be the reason
+ * (controlGroups() with \a survey_sigma, metres, or 1 cm where that is larger). Of several such
+ * strips, the one that covers most points is returned.
+ */
+std::optional<ContradictingControl> contradictingControl(
+    const std::vector<ControlDifference>& differences, const std::vector<std::string>& strips,
+    double survey_sigma);
+
+/** \brief Finds a height offset that is common to the control points, however large it is.
+ *
+ * It exists if the median of the points differs from zero by more than three times their robust
+ * standard deviation, or \a survey_sigma (metres) where that is larger, and three points and more
+ * than half of all agree with the median to that tolerance. Points whose differences are unfit do
+ * not take part.
+ *
+ * \param strip the strip whose differences are examined; empty: all, with the mean of each point
+ */
+std::optional<CommonOffset> commonOffset(const std::vector<ControlDifference>& differences,
+                                         const std::string& strip, double survey_sigma);
+
+/// The offset of all strips; where there is none, the offsets of single strips.
+std::vector<CommonOffset> commonOffsets(const std::vector<ControlDifference>& differences,
+                                        const std::vector<std::string>& strips,
+                                        double survey_sigma);
+
+/** \brief The movement of the strips onto control that heights above control on slopes show.
+ *
+ * A movement (e, n, u) of strips onto control makes their height above a point with the surface
+ * normal n equal to -(e n_e + n n_n) / n_u - u. It is determined where slopes vary by far more than
+ * the normals are uncertain, and the standard deviation in plan is at most 0.5 m.
+ */
+HorizontalShift shiftOntoControl(const std::vector<ControlDifference>& differences);
+
+/// Whether a shift in plan is significant: a component beyond the 99.9 % limit of Student's t
+/// distribution with count - 3 degrees of freedom.
+bool isSignificantInPlan(const HorizontalShift& shift);
 
 class AreaOffsets;
 

@@ -9,10 +9,11 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/radiometry/radiometric_cells.h>
 #include <pcl_als/radiometry/radiometric_model.h>
 
 namespace pcl_als {
+
+struct SharedCell;
 
 /// Terms of a RadiometricModel that overlaps can determine, besides the gains of the strips.
 enum class RadiometricTerm : std::uint8_t { range_exponent, incidence_exponent, extinction };
@@ -40,6 +41,13 @@ struct EstimatedTerm {
   double std_formal = 0.0;  ///< with independent cells
   TermStatus status = TermStatus::fixed;
   std::string reason;  ///< why it is not estimable
+};
+
+/// Differences between strips in common cells: coefficient of variation (standard deviation over
+/// mean of the means of the strips) of each cell.
+struct CellVariation {
+  std::size_t cells = 0;
+  double median = 0.0, rms = 0.0, p90 = 0.0;
 };
 
 struct OverlapResult {

@@ -15,6 +15,7 @@ namespace pcl_als {
 
 class ByteReader;
 class ByteWriter;
+struct CellVariation;
 
 /// Observations of one strip in one cell; sums over its comparable points.
 struct CellSums {
@@ -80,12 +81,6 @@ class RadiometricCells {
   std::unordered_map<std::uint64_t, std::vector<CellSums>> cells_;
 };
 
-/// Differences between strips in common cells: coefficient of variation (standard deviation over
-/// mean of the means of the strips) of each cell.
-struct CellVariation {
-  std::size_t cells = 0;
-  double median = 0.0, rms = 0.0, p90 = 0.0;
-};
 /// \a gains: divisors by strip; empty: none. A null model: the intensities as they are.
 CellVariation variationOf(const std::vector<SharedCell>& cells, const RadiometricModel* model,
                           const std::vector<double>& gains);

@@ -7,7 +7,6 @@
 #include <pcl_als/common/local_frame.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_types.h>
-#include <pcl_als/registration/deferred_kd_tree.h>
 #include <pcl_als/registration/patch_alignment.h>
 
 namespace pcl_als {

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <pcl/point_cloud.h>
 #include <pcl/types.h>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/tin/patch_surface.h>
 
 namespace pcl_als {
@@ -34,8 +37,41 @@ struct CloudSurface {
 /// metres.
 template <typename PointT>
 CloudSurface::ConstPtr makeCloudSurface(const pcl::PointCloud<PointT>& cloud,
-                                        const pcl::Indices* indices, double resolution);
+                                        const pcl::Indices* indices, double resolution) {
+  auto result = std::make_shared<CloudSurface>();
+  const std::size_t count = indices == nullptr ? cloud.size() : indices->size();
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(count);
+  result->kept.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const pcl::index_t at = indices == nullptr ? static_cast<pcl::index_t>(i) : (*indices)[i];
+    if (at < 0 || static_cast<std::size_t>(at) >= cloud.size())
+      throw UsageError("surface of a cloud: index " + std::to_string(at) + " of a cloud of " +
+                       std::to_string(cloud.size()) + " points");
+    const Eigen::Vector3d point = cloud[at].getVector3fMap().template cast<double>();
+    if (!point.allFinite()) continue;
+    points.push_back(point);
+    result->kept.push_back(at);
+  }
+  if (indices == nullptr && points.size() == cloud.size()) {
+    result->kept.clear();
+    result->kept.shrink_to_fit();
+  }
+  result->surface = PatchSurface(Tin(std::move(points), resolution));
+  return result;
+}
+
+/// Provides the patches of source points to a rejector and to a transformation estimation, so that
+/// these do not search them again.
+class PatchMatchProvider {
+ public:
+  virtual ~PatchMatchProvider() = default;
+  /// The target's patches; null before the first search.
+  virtual CloudSurface::ConstPtr getSurface() const = 0;
+  /// The match of a source point in the latest search; null where it has none.
+  virtual const PatchMatch* findMatch(pcl::index_t source_point) const = 0;
+  /// Called by a transformation estimation that has used the matches of the latest search.
+  virtual void markTransformationEstimated() const = 0;
+};
 
 }  // namespace pcl_als
-
-#include <pcl_als/registration/impl/cloud_surface.hpp>

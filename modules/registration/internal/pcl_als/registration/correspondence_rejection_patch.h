@@ -11,7 +11,7 @@
 #include <pcl/point_cloud.h>
 #include <pcl/registration/correspondence_rejection.h>
 
-#include <pcl_als/registration/patch_match_provider.h>
+#include <pcl_als/registration/cloud_surface.h>
 #include <pcl_als/tin/surface_criterion.h>
 
 namespace pcl_als {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <pcl_als/classification/accuracy_assessment.h>
-#include <pcl_als/common/class_site.h>
 #include <pcl_als/common/excluded_points.h>
+#include <pcl_als/common/survey_types.h>
 #include <pcl_als/io/class_io.h>
 
 namespace pcl_als {

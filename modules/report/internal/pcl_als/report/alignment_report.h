@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <pcl_als/common/excluded_points.h>
-#include <pcl_als/registration/patch_alignment_result.h>
+#include <pcl_als/registration/patch_alignment.h>
 
 namespace pcl_als {
 

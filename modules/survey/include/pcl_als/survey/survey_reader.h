@@ -18,11 +18,10 @@
 
 #include <pcl_als/common/excluded_points.h>
 #include <pcl_als/common/lidar_return.h>
-#include <pcl_als/common/point_chunk.h>
 #include <pcl_als/common/progress.h>
+#include <pcl_als/common/survey_types.h>
 #include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/point_reference.h>
-#include <pcl_als/survey/strip_choice.h>
 #include <pcl_als/survey/survey_input.h>
 #include <pcl_als/trajectory/trajectory.h>
 

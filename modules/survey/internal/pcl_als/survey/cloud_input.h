@@ -11,7 +11,7 @@
 
 #include <pcl_als/common/local_frame.h>
 #include <pcl_als/common/point_fields.h>
-#include <pcl_als/common/time_unit.h>
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/local_point_reader.h>
 #include <pcl_als/survey/survey_input.h>
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include <pcl_als/common/excluded_points.h>
+#include <pcl_als/common/survey_types.h>
 #include <pcl_als/common/time_alignment.h>
-#include <pcl_als/survey/strip_choice.h>
 #include <pcl_als/survey/strip_split.h>
 #include <pcl_als/survey/surveyed_file.h>
 #include <pcl_als/trajectory/trajectory.h>

@@ -16,7 +16,6 @@
 
 #include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/survey_types.h>
-#include <pcl_als/survey/area_selection.h>
 
 namespace pcl_als {
 

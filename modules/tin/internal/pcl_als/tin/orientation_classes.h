@@ -42,4 +42,19 @@ std::vector<Amount> evenShares(const std::vector<Amount>& available, Amount tota
   return shares;
 }
 
+/// At most \a total members, as evenly over the classes as possible, evenly within each class.
+template <typename T>
+std::vector<T> chosenEvenly(const std::vector<std::vector<T>>& classes, std::size_t total) {
+  std::vector<std::size_t> sizes;
+  sizes.reserve(classes.size());
+  for (const std::vector<T>& members : classes) sizes.push_back(members.size());
+  const std::vector<std::size_t> shares = evenShares(sizes, total);
+  std::vector<T> chosen;
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    for (std::size_t k = 0; k < shares[c]; ++k)
+      chosen.push_back(classes[c][k * sizes[c] / shares[c]]);
+  }
+  return chosen;
+}
+
 }  // namespace pcl_als

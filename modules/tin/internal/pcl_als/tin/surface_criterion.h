@@ -8,7 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include <pcl_als/tin/orientation_classes.h>
+#include <Eigen/Core>
+
 #include <pcl_als/tin/patch_surface.h>
 
 namespace pcl_als {
@@ -63,19 +64,30 @@ std::vector<std::vector<std::int32_t>> trianglesByOrientation(
     const PatchSurface& surface, std::size_t step,
     const std::function<bool(std::int32_t vertex)>& wanted);
 
-/// At most \a total members, as evenly over the classes as possible, evenly within each class.
-template <typename T>
-std::vector<T> chosenEvenly(const std::vector<std::vector<T>>& classes, std::size_t total) {
-  std::vector<std::size_t> sizes;
-  sizes.reserve(classes.size());
-  for (const std::vector<T>& members : classes) sizes.push_back(members.size());
-  const std::vector<std::size_t> shares = evenShares(sizes, total);
-  std::vector<T> chosen;
-  for (std::size_t c = 0; c < classes.size(); ++c) {
-    for (std::size_t k = 0; k < shares[c]; ++k)
-      chosen.push_back(classes[c][k * sizes[c] / shares[c]]);
-  }
-  return chosen;
-}
+/// Division of the work of suitablePoints(): TINs of squares with margins, as in the calibration.
+struct SuitablePointsSettings {
+  double area_size = 50.0;    ///< metres, > 0
+  double margin = 8.0;        ///< metres around a square, >= 0: more than three neighbourhoods
+  double resolution = 0.001;  ///< metres, coordinate step
+  /// Limit of the roughness as a multiple of the median of suitable patches with slopes up to 15
+  /// degrees, in addition to SurfaceCriterion::roughness; 0: no such limit.
+  double plain_roughness_factor = 3.0;
+  int threads = 0;  ///< 0: all cores; the result does not depend on it
+
+  void check() const;  ///< UsageError
+};
+
+/** \brief Which points of one strip lie on a surface that is suitable for measurement.
+ *
+ * A point is judged by the neighbourhood of one of the triangles around it, without the triangle's
+ * own vertices, so that its own noise has no influence. Points that coincide in plan with another
+ * point are judged with it where it is a vertex of the TIN, and are otherwise not suitable.
+ *
+ * \param points those that may be part of a surface (last returns, no vegetation, no noise),
+ * finite, metres, any frame; squares are counted from its origin \return by point
+ */
+std::vector<bool> suitablePoints(const std::vector<Eigen::Vector3d>& points,
+                                 const SurfaceCriterion& criterion,
+                                 const SuitablePointsSettings& settings = {});
 
 }  // namespace pcl_als

@@ -14,8 +14,8 @@
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/recovered_attitude.h>
-#include <pcl_als/common/scan_planes.h>
 #include <pcl_als/common/survey_types.h>
+#include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
 

@@ -15,7 +15,7 @@
 
 #include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/lidar_return.h>
-#include <pcl_als/common/scan_planes.h>
+#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/trajectory.h>
 

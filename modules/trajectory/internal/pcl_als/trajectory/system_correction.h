@@ -10,8 +10,8 @@
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/recovered_attitude.h>
+#include <pcl_als/common/strip_group.h>
 #include <pcl_als/common/survey_types.h>
-#include <pcl_als/common/system_lookup.h>
 #include <pcl_als/common/time_alignment.h>
 #include <pcl_als/trajectory/coverage_count.h>
 #include <pcl_als/trajectory/point_columns.h>

@@ -13,8 +13,8 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/time_resolution.h>
-#include <pcl_als/common/warning.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/heading_check.h>
 #include <pcl_als/trajectory/height_check.h>

@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/lidar_return.h>
-#include <pcl_als/common/warning.h>
 #include <pcl_als/trajectory/path_evidence.h>
 
 namespace pcl_als {

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include <pcl_als/drawing/color.h>
-#include <pcl_als/drawing/orthographic_camera.h>
+#include <pcl_als/drawing/pixel_thinning.h>
 
 class vtkRenderer;
 

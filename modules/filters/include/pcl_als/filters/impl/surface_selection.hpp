@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/filters/surface_selection.h>
 
 namespace pcl_als {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_fields.h>
-#include <pcl_als/common/point_flag.h>
 #include <pcl_als/filters/waveform_decomposition.h>
 
 namespace pcl_als {

@@ -12,10 +12,10 @@
 #include <Eigen/Geometry>
 
 #include <pcl_als/common/progress.h>
+#include <pcl_als/common/survey_types.h>
 #include <pcl_als/drawing/canvas.h>
 #include <pcl_als/drawing/point_picture.h>
 #include <pcl_als/io/point_window.h>
-#include <pcl_als/survey/strip_choice.h>
 
 namespace pcl_als {
 

@@ -20,16 +20,6 @@ struct PointDeviation {
   float horizontal = 0.0F, vertical = 0.0F;
 };
 
-/// Number, mean squares and share with a known surface of points with standard deviations.
-struct DeviationSummary {
-  std::uint64_t points = 0;
-  std::uint64_t on_surface = 0;  ///< points whose slope is known
-  std::uint64_t unknown = 0;     ///< further points, without trajectory: no standard deviations
-  double horizontal = 0.0, vertical = 0.0;  ///< root mean squares, metres
-
-  std::string describe() const;  ///< a sentence for the user; empty without points
-};
-
 /** \brief Root mean squares of the standard deviations of points in square cells.
  *
  * Sums are whole numbers, so that neither threads nor the order of the points change a bit.

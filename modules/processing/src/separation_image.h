@@ -12,26 +12,8 @@
 namespace pcl_als {
 
 struct RasterGrid;
+struct SeparationSummary;
 class SwathSeparation;
-
-/// A reduced swath separation image: at every place the most frequent colour of the cells that two
-/// strips cover.
-struct SeparationOverview {
-  enum Code : std::uint8_t { nothing, one_strip, within_limit, within_twice, beyond };
-  int columns = 0, rows = 0;
-  double cell = 0.0;                                     ///< metres
-  Eigen::Vector2d north_west = Eigen::Vector2d::Zero();  ///< metres, ground frame
-  std::vector<std::uint8_t> codes;                       ///< row by row from the north-west
-};
-
-/// Numbers of cells of a swath separation image by colour, and its georeference.
-struct SeparationSummary {
-  double cell = 0.0;   ///< metres
-  double limit = 0.0;  ///< metres: green up to it, yellow up to twice as much
-  std::uint64_t green = 0, yellow = 0, red = 0;
-  std::vector<std::string> files;
-  SeparationOverview overview;
-};
 
 /// The grid of an image: \a cell metres, doubled until it fits into memory. \a covered_area: m^2 of
 /// all strips, summed.
