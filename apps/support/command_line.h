@@ -109,7 +109,7 @@ class CommandLine {
   bool quiet() const { return has("quiet"); }
   const std::string& tool() const { return tool_; }
   int threads() const { return static_cast<int>(whole("threads")); }
-  /// "pcl_als_info 0.1.0"
+  /// "pcl_als_info 0.2.0"
   std::string toolAndVersion() const;
   std::string help() const;
   /// All settings that have a value, as given or by default, for a report: name, text.

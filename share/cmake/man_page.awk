@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# awk -v tool=pcl_als_info -v version=0.1.0 -v manual=share/doc/PAGE.md -f man_page.awk: a manual page
+# awk -v tool=pcl_als_info -v version=0.2.0 -v manual=share/doc/PAGE.md -f man_page.awk: a manual page
 # (section 1) from what `pcl_als_info -h` prints, with the page of the manual that shows its use.
 function escaped(text) {
   gsub(/\\/, "\\e", text)

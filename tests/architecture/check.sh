@@ -206,6 +206,14 @@ while IFS= read -r place; do
   breach "$place" "is a mark of an unfinished merge"
 done < <(grep -rnIoE --exclude-dir=.git --exclude-dir='build*' --exclude-dir=pcl_als_demo '^(<{7}|>{7}) ' .)
 
+# One version in all files that state it.
+if [[ -e CMakeLists.txt ]]; then
+  version=$(sed -n 's/^project(pcl_als VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+  for file in CITATION.cff CHANGELOG.md share/packaging/vcpkg/vcpkg.json share/packaging/conda/meta.yaml; do
+    [[ ! -e $file ]] || grep -qF -- "$version" "$file" || breach "$file" "does not name the version $version of CMakeLists.txt"
+  done
+fi
+
 # A file that no CMakeLists.txt lists is not built.
 declare -A lists
 while IFS= read -r file; do

@@ -49,6 +49,9 @@ make_tree; echo 'int whole = sharing;' >>modules/tin/src/a.cpp; expect 1 "uses t
 make_tree; printf '/* sharing\n sharing */ const char* s = "sharing";  // sharing\n' >>modules/tin/src/a.cpp; expect 0 "keep to"
 make_tree; echo 'int x;' >modules/tin/src/a.cpp; expect 1 "no SPDX line"
 make_tree; printf '%.0s<' {1..7} >>modules/tin/README.md; echo ' HEAD' >>modules/tin/README.md; expect 1 "unfinished merge"
+make_tree; echo 'project(pcl_als VERSION 1.2.3)' >CMakeLists.txt; echo 'version: 1.2.2' >CITATION.cff
+expect 1 "CITATION.cff: does not name the version 1.2.3"
+rm CMakeLists.txt CITATION.cff
 make_tree; printf '//\n%.0s' {1..400} >>modules/tin/src/a.cpp; expect 1 "more than 400"
 make_tree; cp modules/tin/src/a.cpp modules/tin/src/forgotten.cpp; expect 1 "is not listed"
 make_tree; cp modules/tin/src/a.cpp modules/tin/src/more_a.cpp; sed -i s/a.cpp/more_a.cpp/ modules/tin/CMakeLists.txt

@@ -28,7 +28,7 @@ enum class VerdictGrade { good, attention, bad };
  *
  * The page needs no network, has a table of contents and a style for printing, and is complete
  * without its script, by which tables are sorted and long ones filtered. Everything given is
- * escaped. \code HtmlReport report("Calibration of block 7", "pcl_als_calibrate 0.1.0");
+ * escaped. \code HtmlReport report("Calibration of block 7", "pcl_als_calibrate 0.2.0");
  * report.setVerdict(VerdictGrade::good, "The strips agree to 2.1 cm.");
  * report.addVerdict("Boresight roll is −90.1 ± 0.8 arcsec.");
  * report.addSection("Pairs of strips");

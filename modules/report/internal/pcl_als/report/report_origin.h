@@ -14,7 +14,7 @@ namespace pcl_als {
 /// Provenance of a report, and its destination.
 struct ReportOrigin {
   std::filesystem::path folder;     ///< folder of the report
-  std::string program;              ///< "pcl_als_check 0.1.0"
+  std::string program;              ///< "pcl_als_check 0.2.0"
   std::vector<std::string> inputs;  ///< files besides the points: trajectory, control, …
   std::vector<std::pair<std::string, std::string>> settings;  ///< names and values
   std::vector<ControlPoint> control;                          ///< for the map; may be empty
