@@ -12,6 +12,7 @@
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/check_delivery.h>
 #include <pcl_als/processing/delivery_requirement.h>
+#include <pcl_als/report/quality_layers.h>
 #include <pcl_als/report/quality_page.h>
 #include <pcl_als/report/quality_report.h>
 
@@ -60,6 +61,10 @@ CommandLine commandLine() {
        "control.csv", "swath_separation.tif", "swath_separation_metres.tif", "swath_separation.png",
        "swath_separation_before.tif", "swath_separation_before_metres.tif",
        "swath_separation_before.png"});
+  line.addOutputFile("gis",
+                     "GeoPackage for geographic information systems: outlines of strips and of "
+                     "overlaps with the results of pairs, offsets, control",
+                     {".gpkg"});
   line.addWhole("quality_level", "quality level of the report (QL0 to QL3)", 2,
                 {0, kQualityLevels - 1, {}});
   line.addChoice("require",
@@ -163,7 +168,7 @@ int check(const CommandLine& line) {
     before = filesLike(files, splitList(line.text("before")));
     refuseRepeated(before);
   }
-  QualityPage page(line.has("report"));
+  QualityPage page(line.has("report") || line.has("gis"));
   options.observer = page.observer();
   DeliveryCheckResult checked = checkFiles(line, files, options, "swath_separation");
   report.block = std::move(checked.block);
@@ -177,6 +182,11 @@ int check(const CommandLine& line) {
   writeFile(line.text("output"), qualityJson(report));
   if (!line.quiet()) std::cout << qualityText(report) << std::endl;
   if (line.has("report")) writeReport(line, report, checked.areas, page);
+  if (line.has("gis")) {
+    Step step("Writing " + line.text("gis"), line.quiet());
+    writeQualityLayers(line.text("gis"), report, page.coverage(), page.strips(), checked.crs);
+    step.done("");
+  }
   const std::string unreliable = whyUnreliable(report.block);
   return unreliable.empty() ? concludeRequirement(line, report) : app::conclude(line, unreliable);
 }

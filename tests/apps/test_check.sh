@@ -158,7 +158,25 @@ fi
 expect 0 "converged" calibrate "${strips[@]}" -trajectory "$block/trajectory.csv" \
   -control "$block/control.csv" -output calibration.json -corrected after
 expect 0 "before" check after/strip{3,1,2,4,5}.las -before "$block" -control "$block/control.csv" \
-  -output both.json -report both
+  -output both.json -report both -gis block.gpkg
+# For geographic information systems: what the tables of the report hold, with outlines.
+python3 - <<'PYTHON' || failed "block.gpkg"
+import csv, sqlite3
+package = sqlite3.connect("block.gpkg")
+def rows(table): return package.execute(f"select * from {table}").fetchall()
+assert len(rows("strips")) == 5, rows("strips")
+for table in ("pairs", "offsets", "control"):
+    with open(f"both/{table}.csv", newline="") as file:
+        lines = list(csv.reader(file))
+    names = [each[1] for each in package.execute(f"pragma table_info({table})")]
+    assert names[2:] == lines[0], (table, names, lines[0])
+    assert len(rows(table)) == len(lines) - 1, table
+area = {strip: area for _, _, strip, area in rows("strips")}
+assert all(1e4 < each < 1e7 for each in area.values()), area
+assert package.execute("select count(*) from pairs where geom is null").fetchone()[0] == 0
+PYTHON
+checks=$((checks + 1))
+expect 1 "-gis" check "$one" "$two" -output x.json -gis x.shp
 check "both sets are in the JSON" grep -q '"before"' both.json
 better=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
   $at["status"] == "judged" { rms[$1, $2, $3] = $at["vertical_rms_m"] }

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include <gdal_frmts.h>
+#include <gdal_version.h>
+#include <ogrsf_frmts.h>
 
 #include <pcl_als/common/errors.h>
 
@@ -20,8 +22,21 @@ GDALDriverH gdalDriver(const char* name) {
 #if GDAL_VERSION_NUM >= GDAL_COMPUTE_VERSION(3, 1, 0)
     GDALRegister_COG();
 #endif
+#if GDAL_VERSION_NUM < GDAL_COMPUTE_VERSION(3, 11, 0)
+    RegisterOGRMEM();
+#endif
+    RegisterOGRCSV();
+    RegisterOGRGeoPackage();
   });
   return GDALGetDriverByName(name);
+}
+
+SpatialReference referenceOf(const std::string& crs, const GdalReports& reports) {
+  SpatialReference reference(OSRNewSpatialReference(nullptr));
+  const bool known = OSRSetFromUserInput(reference.get(), crs.c_str()) == OGRERR_NONE;
+  const std::string name = crs.substr(0, 60) + (crs.size() > 60 ? "…" : "");
+  reports.check(known, "the CRS " + name + " is not known to PROJ");
+  return reference;
 }
 
 GdalReports::GdalReports(std::filesystem::path path,

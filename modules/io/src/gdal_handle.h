@@ -23,6 +23,10 @@ struct DestroyReference {
 };
 using SpatialReference = std::unique_ptr<void, DestroyReference>;
 
+class GdalReports;
+/// InputError for a CRS, WKT or "EPSG:…", that PROJ does not know.
+SpatialReference referenceOf(const std::string& crs, const GdalReports& reports);
+
 /// GDAL's driver of that short name, of those this module uses; null where GDAL lacks it.
 GDALDriverH gdalDriver(const char* name);
 

@@ -30,10 +30,7 @@ void setReference(GDALDatasetH dataset, const RasterGrid& grid, const GdalReport
   double transform[] = {grid.west / metres, cell, 0.0, grid.north / metres, 0.0, -cell};
   reports.check(GDALSetGeoTransform(dataset, transform) == CE_None, "cannot be georeferenced");
   if (grid.crs.empty()) return;
-  const SpatialReference reference(OSRNewSpatialReference(nullptr));
-  const bool known = OSRSetFromUserInput(reference.get(), grid.crs.c_str()) == OGRERR_NONE;
-  const std::string name = grid.crs.substr(0, 60) + (grid.crs.size() > 60 ? "…" : "");
-  reports.check(known, "the CRS " + name + " is not known to PROJ");
+  const SpatialReference reference = referenceOf(grid.crs, reports);
   reports.check(GDALSetSpatialRef(dataset, reference.get()) == CE_None, "cannot keep its CRS");
 }
 

@@ -115,6 +115,7 @@ DeliveryCheckResult checkDelivery(SurveyReader& survey,
                 progress);
   }
   checked.areas = check.areas();
+  checked.crs = survey.reference().crs;
   return checked;
 }
 

@@ -171,15 +171,21 @@ std::string runCsv(const QualityReport& report) {
 
 }  // namespace
 
-void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report) {
+std::map<std::string, std::string> qualityCsvTables(const QualityReport& report) {
   const auto classes = [](const CheckedPair& pair) { return pair.assessment.classes; };
+  std::map<std::string, std::string> tables{{"pairs", pairsCsv(report)},
+                                            {"slope_aspect", csvOf(report, classFields(), classes)},
+                                            {"profiles", profilesCsv(report)},
+                                            {"offsets", offsetsCsv(report)},
+                                            {"run", runCsv(report)}};
+  if (report.block.control) tables["control"] = controlCsv(report);
+  return tables;
+}
+
+void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report) {
   writeFile(folder / "quality.md", "# Quality\n" + qualityText(report));
-  writeFile(folder / "pairs.csv", pairsCsv(report));
-  writeFile(folder / "slope_aspect.csv", csvOf(report, classFields(), classes));
-  writeFile(folder / "profiles.csv", profilesCsv(report));
-  writeFile(folder / "offsets.csv", offsetsCsv(report));
-  writeFile(folder / "run.csv", runCsv(report));
-  if (report.block.control) writeFile(folder / "control.csv", controlCsv(report));
+  for (const auto& [name, text] : qualityCsvTables(report))
+    writeFile(folder / (name + ".csv"), text);
 }
 
 }  // namespace pcl_als

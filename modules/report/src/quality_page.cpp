@@ -83,6 +83,14 @@ SurveyObserver QualityPage::observer() {
   return state_ ? state_->block.observer() : SurveyObserver();
 }
 
+const std::vector<std::string>& QualityPage::strips() const {
+  return state_->block.strips;
+}
+
+const StripCoverage& QualityPage::coverage() const {
+  return *state_->block.coverage;
+}
+
 void QualityPage::write(const ReportOrigin& origin, const QualityReport& quality,
                         const std::vector<SurveyArea>& areas) const {
   HtmlReport report(

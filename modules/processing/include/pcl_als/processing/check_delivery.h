@@ -36,6 +36,7 @@ struct DeliveryCheckOptions {
 struct DeliveryCheckResult {
   CheckedBlock block;
   std::vector<SurveyArea> areas;  ///< areas of comparison
+  std::string crs;                ///< of the points, WKT or "EPSG:…"; empty: unknown
 };
 
 /** \brief Measures the agreement of the overlapping strips of a survey with each other and with

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,8 +40,10 @@ std::string qualityJson(const QualityReport& report);
 /// The description of quality.json.
 const FieldTable& qualityFields();
 
-/// Writes quality.md, pairs.csv, control.csv, slope_aspect.csv, profiles.csv, offsets.csv and
-/// run.csv (times and memory, which differ from run to run), each complete or not at all.
+/// The tables of a check as CSV by name: pairs, slope_aspect, profiles, offsets, run (times and
+/// memory, which differ from run to run), and control where it was given.
+std::map<std::string, std::string> qualityCsvTables(const QualityReport& report);
+/// Writes quality.md and these tables as NAME.csv, each complete or not at all.
 void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report);
 
 /// Whether there is a reliable result: an assessed pair, or a control point.

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <pcl_als/common/survey_types.h>
+#include <pcl_als/drawing/block_map.h>
 #include <pcl_als/report/quality_report.h>
 #include <pcl_als/report/report_origin.h>
 #include <pcl_als/survey/survey_reader.h>
@@ -24,6 +26,9 @@ class QualityPage {
 
   /// Observer for the check, for the map; the page must exist as long as it is called.
   SurveyObserver observer();
+  /// What was observed: the strips, and the cells with their points.
+  const std::vector<std::string>& strips() const;
+  const StripCoverage& coverage() const;
   /// Writes the page into the folder of \a origin.
   void write(const ReportOrigin& origin, const QualityReport& report,
              const std::vector<SurveyArea>& areas) const;
