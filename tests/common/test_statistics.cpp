@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -54,6 +55,26 @@ TEST(RunningStatistics, MergedPartsEqualTheWhole) {
   EXPECT_EQ(merged.count(), whole.count());
   EXPECT_NEAR(merged.mean(), whole.mean(), 1e-12);  // rounding of 1000 additions
   EXPECT_NEAR(merged.standardDeviation(), whole.standardDeviation(), 1e-12);
+}
+
+TEST(Median, OfManyValuesIsThatOfTheSortedOnes) {
+  std::mt19937 random(3);
+  std::cauchy_distribution<double> heavy(0.3, 2.0);
+  for (const std::size_t count : {4095U, 4096U, 4097U, 50'000U, 50'001U}) {
+    std::vector<double> scattered(count), ascending(count), periodic(count), equal(count, 2.0);
+    for (std::size_t i = 0; i < count; ++i) {
+      scattered[i] = heavy(random);
+      ascending[i] = static_cast<double>(i);
+      // A sample at equal intervals does not represent these values.
+      periodic[i] = i % (count / 1024) == 0 ? static_cast<double>(i) : -static_cast<double>(i);
+    }
+    for (std::vector<double> values : {scattered, ascending, periodic, equal}) {
+      std::vector<double> sorted = values;
+      std::sort(sorted.begin(), sorted.end());
+      const double upper = sorted[count / 2], lower = sorted[count / 2 - 1];
+      EXPECT_EQ(medianInPlace(values), count % 2 == 1 ? upper : 0.5 * (lower + upper)) << count;
+    }
+  }
 }
 
 TEST(Median, OddEvenAndEmpty) {

@@ -72,15 +72,18 @@ void ClusteredRegression::add(std::int64_t cluster, const Row& row, double value
                               const Eigen::Vector2d& place, const Row& effect) {
   add(cluster, row, value);
   places_.push_back(place);
-  effects_.push_back(effect);
+  effects_.insert(effects_.end(), effect.data(), effect.data() + effect.size());
 }
 
 void ClusteredRegression::raiseByCorrelation(const Eigen::VectorXd& weights,
                                              const Eigen::VectorXd& left, Result& result) const {
   if (places_.size() != values_.size()) return;
-  CorrelatedErrors errors(unknowns_, static_cast<int>(effects_.front().size()));
+  const std::size_t components = effects_.size() / values_.size();
+  CorrelatedErrors errors(unknowns_, static_cast<int>(components));
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    errors.add(places_[i], rowOf(i), effects_[i], weights[i], left[i]);
+    const Eigen::Map<const Row> effect(&effects_[i * components],
+                                       static_cast<Eigen::Index>(components));
+    errors.add(places_[i], rowOf(i), effect, weights[i], left[i]);
   }
   const CorrelatedErrors::Result shared = errors.solve();
   if (shared.determined) raiseTo(shared.covariance.diagonal(), result.covariance);

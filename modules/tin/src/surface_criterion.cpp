@@ -37,6 +37,8 @@ double typicalPlanEdge(const Tin& tin, std::size_t triangles) {
   std::vector<double> lengths, longest;
   const auto& all = tin.triangles();
   const std::size_t step = 1 + (triangles == 0 ? 0 : all.size() / triangles);
+  lengths.reserve(3 * all.size() / step + 3);
+  longest.reserve(all.size() / step + 1);
   for (std::size_t t = 0; t < all.size(); t += step) {
     longest.push_back(0.0);
     for (int i = 0; i < 3; ++i) {

@@ -72,7 +72,7 @@ class ClusteredRegression {
   std::vector<double> rows_, values_;
   std::vector<std::int64_t> clusters_;
   std::vector<Eigen::Vector2d> places_;
-  std::vector<Row> effects_;
+  std::vector<double> effects_;
 };
 
 }  // namespace pcl_als
