@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -32,6 +33,34 @@ TEST(PatchQuality, TiltedPlaneByHand) {
   EXPECT_FALSE(q.on_hull);
   // All diagonals of a tied grid run one way: three rings of six around a triangle hold 12 points.
   EXPECT_EQ(q.vertices, 12);
+}
+
+TEST(PatchQuality, SuitableTrianglesAreThoseThatSatisfyTheCriterion) {
+  const PatchSurface surface(Tin(test::scenePoints(5000, 0.02, 5)));
+  const double median_edge = typicalPlanEdge(surface.tin());
+  SurfaceCriterion bent, any;
+  bent.bend = 0.2;
+  bent.slope = 0.4;
+  any.edge_factor = any.slope = any.roughness = std::numeric_limits<double>::infinity();
+  any.minimum_vertices = 0;
+  any.reject_border = false;
+  for (const SurfaceCriterion& criterion : {SurfaceCriterion(), bent, any}) {
+    std::size_t suitable = 0;
+    for (std::size_t t = 0; t < surface.tin().triangles().size(); ++t) {
+      const auto triangle = static_cast<std::int32_t>(t);
+      const PatchQuality quality = surface.quality(triangle);
+      const auto found = surface.suitable(triangle, criterion, median_edge);
+      ASSERT_EQ(found.has_value(), criterion.isSatisfiedBy(quality, median_edge));
+      if (!found) continue;
+      ++suitable;
+      EXPECT_EQ(found->plane_normal, quality.plane_normal);
+      EXPECT_EQ(found->plane_centre, quality.plane_centre);
+      EXPECT_EQ(found->roughness, quality.roughness);
+      EXPECT_EQ(found->slope, quality.slope);
+      EXPECT_EQ(found->spread, quality.spread);
+    }
+    EXPECT_GT(suitable, surface.tin().triangles().size() / 20);
+  }
 }
 
 TEST(OrientationClasses, AreSlopeStepsAndEighthsOfATurn) {

@@ -333,6 +333,39 @@ TEST(PatchSurface, HintsAndThreadsChangeNothing) {
   EXPECT_EQ(plain, hinted);
 }
 
+TEST(PatchSurface, PointsThatMoveFindWhatASearchFinds) {
+  const PatchSurface surface(Tin(test::scenePoints(5000, 0.02, 9)));
+  constexpr double kMargin = 0.05;
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  std::size_t searches = 0, calls = 0, found = 0;
+  for (Vector3d point : test::scenePoints(500, 0.2, 10)) {
+    PatchSearch last;
+    for (int i = 0; i < 30; ++i) {
+      // From movements far beyond the margin to those of an iteration that has nearly converged.
+      const double step = 0.5 * std::pow(0.7, i), limit = i < 3 || i == 20 ? 2.0 : 0.25;
+      point += step * Vector3d(normal(random), normal(random), normal(random));
+      const auto expected = surface.closest(point, limit);
+      const auto match = surface.closest(point, limit, kMargin, last);
+      ++calls;
+      if (last.point == point) ++searches;
+      ASSERT_EQ(match.has_value(), expected.has_value());
+      if (!match) continue;
+      ++found;
+      EXPECT_EQ(match->triangle, expected->triangle);
+      EXPECT_EQ(match->signed_normal_distance, expected->signed_normal_distance);
+      EXPECT_EQ(match->normal, expected->normal);
+      EXPECT_EQ(match->foot, expected->foot);
+      EXPECT_EQ(match->weights, expected->weights);
+    }
+  }
+  EXPECT_GT(found, calls / 4);
+  EXPECT_LT(searches, calls / 2);
+  PatchSearch last;
+  EXPECT_THROW(surface.closest({1, 1, 1}, -1.0, kMargin, last), UsageError);
+  EXPECT_FALSE(PatchSurface().closest({1, 1, 1}, 1.0, kMargin, last));
+}
+
 TEST(PatchSurface, SameAnswerAtMapCoordinates) {
   // Coordinates of 5e6 m carry steps of 1e-9 m; distances agree to a few of them.
   const Vector3d map(583394.0, 5283100.0, 498.0);

@@ -96,14 +96,13 @@ void AreaOffsets::choosePlaces(StripPart& part) const {
   std::vector<Place> level, steep;
   for (const std::int32_t triangle :
        sampledTriangles(part, kExaminedPerPlace * limits_.candidates)) {
-    const PatchQuality quality = part.surface.quality(triangle);
-    if (!limits_.isSatisfiedBy(quality, part.median_edge) || quality.plane_normal.z() < kWall)
-      continue;
+    const auto quality = part.surface.suitable(triangle, limits_, part.median_edge);
+    if (!quality || quality->plane_normal.z() < kWall) continue;
     Place place;
     place.point = part.surface.tin().triangles()[triangle].vertex[0];
     place.position = part.points[place.point].position;
-    place.position.z() = heightOf(quality, place.position);
-    place.normal = quality.plane_normal;
+    place.position.z() = heightOf(*quality, place.position);
+    place.normal = quality->plane_normal;
     (place.normal.z() > std::cos(limits_.level_slope) ? level : steep).push_back(place);
   }
   part.places = thinned(level, limits_.candidates);
@@ -166,26 +165,27 @@ bool AreaOffsets::measureAt(const StripPart& from, const Place& place, const Str
     sample.identical = other.position == point.position && other.time == point.time;
     return sign * (place.position.z() - heightOf(quality, place.position));
   };
-  const auto usable = [&](const PatchQuality& quality) {
-    return limits_.isSatisfiedBy(quality, to.median_edge) && quality.plane_normal.z() >= kWall;
+  const auto usable = [&](std::int32_t triangle) {
+    auto quality = to.surface.suitable(triangle, limits_, to.median_edge);
+    if (quality && quality->plane_normal.z() < kWall) quality.reset();
+    return quality;
   };
   const auto closest = to.surface.closest(place.position, limits_.maximum_distance, hint);
-  PatchQuality quality;
+  std::optional<PatchQuality> quality;
   if (closest) {
-    quality = to.surface.quality(closest->triangle);
-    if (usable(quality)) {
-      sample.normal_distance = compare(*closest, quality) * sample.normal.z();
+    quality = usable(closest->triangle);
+    if (quality) {
+      sample.normal_distance = compare(*closest, *quality) * sample.normal.z();
       sample.conjugate = std::abs(sample.normal_distance) <= limits_.maximum_distance;
     }
   }
   const auto below = to.surface.vertical(place.position);
   if (!below) return sample.conjugate;
-  if (!closest || closest->triangle != below->triangle)
-    quality = to.surface.quality(below->triangle);
-  if (!usable(quality)) return sample.conjugate;
-  const Eigen::Vector3d normal = (place.normal + quality.plane_normal).normalized();
+  if (!closest || closest->triangle != below->triangle) quality = usable(below->triangle);
+  if (!quality) return sample.conjugate;
+  const Eigen::Vector3d normal = (place.normal + quality->plane_normal).normalized();
   if (normal.z() > std::cos(limits_.level_slope)) {
-    const double above = compare(*below, quality);
+    const double above = compare(*below, *quality);
     if (std::abs(above) <= limits_.maximum_distance) {
       sample.level = true;
       sample.vertical = above;

@@ -57,11 +57,13 @@ OffsetSummary summarize(std::vector<double> values, const std::vector<std::int64
   summary.nmad = robustSigma(values);
   summary.median = medianInPlace(values);
   for (double& value : values) value = std::abs(value);
-  std::sort(values.begin(), values.end());
   // Nearest rank: the smallest value that 95 % do not exceed.
-  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size())));
-  summary.percentile_95 = values[rank - 1];
-  summary.largest = values.back();
+  const auto rank =
+      static_cast<std::ptrdiff_t>(std::ceil(0.95 * static_cast<double>(values.size())));
+  const auto place = values.begin() + rank - 1;
+  std::nth_element(values.begin(), place, values.end());
+  summary.percentile_95 = *place;
+  summary.largest = *std::max_element(place, values.end());
   return summary;
 }
 

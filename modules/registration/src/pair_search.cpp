@@ -38,11 +38,9 @@ class DirectedSearch {
     for (std::size_t i = 0; i < count; i += stride) {
       Candidate& candidate = candidates[i];
       const Vector3d moved = there_ * candidate.position;
-      const auto match = patches.surface().closest(moved, threshold_, candidate.under);
-      PatchPlane plane;
-      if (!match || !patches.planeOf(match->triangle, plane)) continue;
+      const auto match = patches.patchOf(candidate, moved, threshold_);
       PatchPair pair;
-      if (!direction(candidate, plane, patches.isCoarse(), pair)) continue;
+      if (!match || !direction(candidate, patches.isCoarse(), pair)) continue;
       fill(candidate, moved, *match, pair);
       pairs.push_back(pair);
     }
@@ -53,8 +51,8 @@ class DirectedSearch {
   /// that of the triangle; vertical where its tilt is not significant, because noise of the normal
   /// would act as information about plan positions. False where the orientations of the two
   /// surfaces differ.
-  bool direction(const Candidate& candidate, const PatchPlane& patch, bool coarse,
-                 PatchPair& pair) const {
+  bool direction(const Candidate& candidate, bool coarse, PatchPair& pair) const {
+    const PatchPlane& patch = candidate.patch_plane;
     Vector3d& normal = pair.normal;
     pair.tilt_variance = 0.0;
     if (coarse) {
@@ -64,7 +62,7 @@ class DirectedSearch {
     const Vector3d& in_source = source_point_ ? candidate.plane.normal : patch.normal;
     const Vector3d& in_target = source_point_ ? patch.normal : candidate.plane.normal;
     const Vector3d a = turn_ * in_source;
-    const double sigma = std::hypot(candidate.plane.tilt_sigma, patch.tilt_sigma);
+    const double sigma = candidate.tilt_sigma;
     const double most = std::clamp(kSignificant * sigma, kLeastAngle, kMostAngle);
     if (a.dot(in_target) < 0.0 || a.cross(in_target).squaredNorm() > most * most) return false;
     normal = (a + in_target).normalized();

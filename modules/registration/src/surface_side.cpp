@@ -14,6 +14,7 @@ namespace {
 constexpr std::int32_t kUnknown = -1, kUnfit = -2;
 constexpr double kCoarseEdges = 6.0;  // longest edge against the median, TIN of lowest points
 constexpr std::size_t kEdgeSamples = 3000;
+constexpr double kMargin = 0.1;  // median edges: movement of a point without a new search
 
 }  // namespace
 
@@ -33,9 +34,9 @@ void SurfaceSide::sampleRoughness(std::size_t count, std::vector<double>& values
   for (std::size_t t = 0; t < triangles.size(); t += step) {
     const Eigen::Vector3d& corner = surface_.tin().points()[triangles[t].vertex[0]];
     if (!box_.contains(corner.head<2>())) continue;
-    const PatchQuality quality = surface_.quality(static_cast<std::int32_t>(t));
-    if (choice_.criterion.isSatisfiedBy(quality, median_edge_) && quality.slope < kGentleSlope)
-      values.push_back(quality.roughness);
+    const auto quality =
+        surface_.suitable(static_cast<std::int32_t>(t), choice_.criterion, median_edge_);
+    if (quality && quality->slope < kGentleSlope) values.push_back(quality->roughness);
   }
 }
 
@@ -70,6 +71,19 @@ void SurfaceSide::makeCoarse(std::size_t count) {
     choice_.candidates.push_back({points[i], {}});
 }
 
+std::optional<PatchMatch> SurfaceSide::patchOf(Candidate& candidate, const Eigen::Vector3d& moved,
+                                               double threshold) {
+  auto match = surface_.closest(moved, threshold, kMargin * median_edge_, candidate.patch);
+  if (!match) return match;
+  if (candidate.judged != match->triangle) {
+    candidate.judged = match->triangle;
+    candidate.suitable = planeOf(match->triangle, candidate.patch_plane);
+    candidate.tilt_sigma = std::hypot(candidate.plane.tilt_sigma, candidate.patch_plane.tilt_sigma);
+  }
+  if (!candidate.suitable) match.reset();
+  return match;
+}
+
 bool SurfaceSide::planeOf(std::int32_t triangle, PatchPlane& plane) {
   if (coarse_) return judgeCoarse(triangle, plane);
   std::int32_t& verdict = choice_.verdicts[triangle];
@@ -83,9 +97,9 @@ bool SurfaceSide::planeOf(std::int32_t triangle, PatchPlane& plane) {
 }
 
 bool SurfaceSide::judge(std::int32_t triangle, PatchPlane& plane) const {
-  const PatchQuality quality = surface_.quality(triangle);
-  plane = planeOf(quality);
-  return choice_.criterion.isSatisfiedBy(quality, median_edge_);
+  const auto quality = surface_.suitable(triangle, choice_.criterion, median_edge_);
+  if (quality) plane = planeOf(*quality);
+  return quality.has_value();
 }
 
 bool SurfaceSide::judgeCoarse(std::int32_t triangle, PatchPlane& plane) const {

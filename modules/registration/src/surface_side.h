@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,11 @@ struct PatchPlane {
 struct Candidate {
   Eigen::Vector3d position;
   PatchPlane plane;
-  std::int32_t under = Tin::kNone;  ///< triangle of the other cloud, where the next search starts
+  PatchSearch patch = {};            ///< the last search in the other cloud
+  std::int32_t judged = Tin::kNone;  ///< triangle of the other cloud that was judged last
+  bool suitable = false;             ///< its verdict
+  PatchPlane patch_plane = {};       ///< its plane
+  double tilt_sigma = 0.0;           ///< radians, of both planes together
 };
 
 /** \brief The surface of one cloud in one area: TIN, candidate points, and the suitability of
@@ -62,11 +67,16 @@ class SurfaceSide {
   /// Uses every n-th point, \a count at most, as candidate; the side is coarse from then on.
   void makeCoarse(std::size_t count);
 
-  /// The plane of a patch; false where it is not suitable for measurement. Results are stored, so
-  /// that two threads must not call it at the same time, except on a coarse side.
-  bool planeOf(std::int32_t triangle, PatchPlane& plane);
+  /// The patch that is conjugate to a point, a candidate of the other side; empty where there is
+  /// none within \a threshold (metres) that is suitable for measurement. Results are stored, here
+  /// and in the candidate, so that two threads must not call it at the same time, except on a
+  /// coarse side and with different candidates.
+  std::optional<PatchMatch> patchOf(Candidate& candidate, const Eigen::Vector3d& moved,
+                                    double threshold);
 
  private:
+  /// The plane of a patch; false where it is not suitable for measurement.
+  bool planeOf(std::int32_t triangle, PatchPlane& plane);
   bool judge(std::int32_t triangle, PatchPlane& plane) const;
   bool judgeCoarse(std::int32_t triangle, PatchPlane& plane) const;
   PatchPlane planeOf(const PatchQuality& quality) const;

@@ -110,14 +110,16 @@ void TriangleSet::spill() {
  * triangles that touch a disc around the point hang together through edges that touch it, as the
  * hull is convex. So: from a triangle inside the disc, across edges inside the disc, while the disc
  * shrinks to the best distance so far. */
-Closest closestTriangle(const Tin& tin, const Vector3d& point, double max_distance,
+Closest closestTriangle(const Tin& tin, const Vector3d& point, double max_distance, double margin,
                         std::int32_t& hint) {
   Closest best;
   const Tin::Location under = tin.walk(point.x(), point.y(), hint);
   hint = under.triangle;
   if (under.triangle == Tin::kNone) return best;
   best.distance.distance_sq = max_distance * max_distance;
-  double plan_sq = (max_distance + kSlack) * (max_distance + kSlack);
+  const double more = margin + kSlack;
+  double plan_sq = (max_distance + more) * (max_distance + more);
+  double others_sq = std::numeric_limits<double>::infinity();
   TriangleSet reached;
   reached.insert(under.inside ? under.triangle : closestOnHull(tin, under.triangle, point));
   for (std::size_t i = 0; i < reached.size(); ++i) {
@@ -125,9 +127,12 @@ Closest closestTriangle(const Tin& tin, const Vector3d& point, double max_distan
     const TriangleDistance distance = triangleDistance(tin, at, point);
     const double gain = best.distance.distance_sq - distance.distance_sq;
     if (gain > 0.0 || (gain == 0.0 && (best.triangle == Tin::kNone || at < best.triangle))) {
+      if (best.triangle != Tin::kNone) others_sq = std::min(others_sq, best.distance.distance_sq);
       best = {at, distance};
-      const double radius = std::sqrt(distance.distance_sq) + kSlack;
+      const double radius = std::sqrt(distance.distance_sq) + more;
       plan_sq = radius * radius;
+    } else {
+      others_sq = std::min(others_sq, distance.distance_sq);
     }
     const Tin::Triangle& t = tin.triangles()[at];
     for (int k = 0; k < 3; ++k) {
@@ -137,6 +142,7 @@ Closest closestTriangle(const Tin& tin, const Vector3d& point, double max_distan
         reached.insert(t.neighbour[k]);
     }
   }
+  best.others = std::sqrt(std::min(others_sq, plan_sq)) - kSlack;
   return best;
 }
 

@@ -40,11 +40,12 @@ class TriangleSet {
 struct Closest {
   std::int32_t triangle = Tin::kNone;  ///< kNone when none is within the distance
   TriangleDistance distance;
+  double others = 0.0;  ///< metres: all other triangles are at least so far away
 };
 
 /// Of equally close ones the lowest index. \a hint as for Tin::walk; it becomes the triangle under
-/// the point.
+/// the point. \a margin (metres): the others are looked at up to so much further than the closest.
 Closest closestTriangle(const Tin& tin, const Eigen::Vector3d& point, double max_distance,
-                        std::int32_t& hint);
+                        double margin, std::int32_t& hint);
 
 }  // namespace pcl_als::tin

@@ -8,6 +8,7 @@
 
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/tin/patch_surface.h>
+#include <pcl_als/tin/surface_criterion.h>
 
 #include "triangle_distance.h"
 
@@ -94,7 +95,24 @@ double angleBetween(const Vector3d& a, const Vector3d& b) {
 }  // namespace
 
 PatchQuality PatchSurface::quality(std::int32_t triangle) const {
+  return *examine(triangle, nullptr, 0.0);
+}
+
+std::optional<PatchQuality> PatchSurface::suitable(std::int32_t triangle,
+                                                   const SurfaceCriterion& criterion,
+                                                   double median_edge) const {
+  return examine(triangle, &criterion, median_edge);
+}
+
+/// With a criterion: empty as soon as it cannot be satisfied.
+std::optional<PatchQuality> PatchSurface::examine(std::int32_t triangle,
+                                                  const SurfaceCriterion* criterion,
+                                                  double median_edge) const {
   PatchQuality quality;
+  const Vector3d normal = tin::unitNormal(tin_, triangle);
+  quality.longest_edge = static_cast<float>(longestEdge(tin_, tin_.triangles()[triangle]));
+  quality.slope = static_cast<float>(std::atan2(normal.head<2>().norm(), normal.z()));
+  if (criterion != nullptr && quality.slope > criterion->slope) return std::nullopt;
   thread_local std::vector<std::int32_t> ring;
   ring.clear();
   for (int corner = 0; corner < 3; ++corner)
@@ -108,13 +126,12 @@ PatchQuality PatchSurface::quality(std::int32_t triangle) const {
   for (const std::int32_t v : own) all.add(tin_.points()[v] - origin);
   constexpr double kMaximumStored = std::numeric_limits<std::uint16_t>::max();
   quality.vertices = static_cast<std::uint16_t>(std::min(all.count, kMaximumStored));
+  if (criterion != nullptr && !criterion->isSound(quality, median_edge)) return std::nullopt;
 
-  const Vector3d normal = tin::unitNormal(tin_, triangle);
   const Plane plane = fitPlane(all);
-  quality.longest_edge = static_cast<float>(longestEdge(tin_, tin_.triangles()[triangle]));
-  quality.slope = static_cast<float>(std::atan2(normal.head<2>().norm(), normal.z()));
   quality.roughness = static_cast<float>(plane.rms);
   quality.bend = static_cast<float>(angleBetween(normal, plane.normal));
+  if (criterion != nullptr && !criterion->isSatisfiedBy(quality, median_edge)) return std::nullopt;
 
   constexpr double kMinimumNeighbours = 4.0;
   const Plane without_own = others.count >= kMinimumNeighbours ? fitPlane(others) : plane;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -14,14 +15,38 @@
 namespace pcl_als {
 namespace {
 
-PatchMatch matchOf(const Tin& tin, std::int32_t triangle, const Eigen::Vector3d& point) {
+PatchMatch matchOf(const Tin& tin, std::int32_t triangle, const Eigen::Vector3d& area_normal,
+                   const Eigen::Vector3d& point) {
   PatchMatch match;
   match.triangle = triangle;
-  match.normal = tin::unitNormal(tin, triangle);
+  match.normal = tin::unitUpward(area_normal);
   const Eigen::Vector3d& a = tin.points()[tin.triangles()[triangle].vertex[0]];
   match.signed_normal_distance = match.normal.dot(point - a);
   match.foot = point - match.signed_normal_distance * match.normal;
   return match;
+}
+
+std::optional<PatchMatch> matchOf(const Tin& tin, std::int32_t triangle,
+                                  const tin::TriangleDistance& distance,
+                                  const Eigen::Vector3d& point) {
+  if (triangle == Tin::kNone || !distance.inside) return std::nullopt;
+  PatchMatch match = matchOf(tin, triangle, distance.normal, point);
+  match.weights = distance.weights;
+  return match;
+}
+
+void checkDistance(double max_normal_distance) {
+  if (!(max_normal_distance > 0.0))
+    throw UsageError("PatchSurface: max_normal_distance must be a positive number of metres, not " +
+                     std::to_string(max_normal_distance));
+}
+
+/// How far a point may move without a change of the closest triangle: both distances change by no
+/// more than that.
+double freeMovement(const tin::Closest& found, double max_distance) {
+  constexpr double kRounding = 1e-9;  // metres
+  if (found.triangle == Tin::kNone) return found.others - max_distance - kRounding;
+  return 0.5 * (found.others - std::sqrt(found.distance.distance_sq)) - kRounding;
 }
 
 }  // namespace
@@ -41,22 +66,37 @@ std::optional<PatchMatch> PatchSurface::closest(const Eigen::Vector3d& point,
 std::optional<PatchMatch> PatchSurface::closest(const Eigen::Vector3d& point,
                                                 double max_normal_distance,
                                                 std::int32_t& hint) const {
-  if (!(max_normal_distance > 0.0))
-    throw UsageError("PatchSurface: max_normal_distance must be a positive number of metres, not " +
-                     std::to_string(max_normal_distance));
+  checkDistance(max_normal_distance);
   if (!point.allFinite()) return std::nullopt;
-  const tin::Closest found = tin::closestTriangle(tin_, point, max_normal_distance, hint);
-  if (found.triangle == Tin::kNone || !found.distance.inside) return std::nullopt;
-  PatchMatch match = matchOf(tin_, found.triangle, point);
-  match.weights = found.distance.weights;
-  return match;
+  const tin::Closest found = tin::closestTriangle(tin_, point, max_normal_distance, 0.0, hint);
+  return matchOf(tin_, found.triangle, found.distance, point);
+}
+
+std::optional<PatchMatch> PatchSurface::closest(const Eigen::Vector3d& point,
+                                                double max_normal_distance, double margin,
+                                                PatchSearch& last) const {
+  checkDistance(max_normal_distance);
+  if (!point.allFinite()) return std::nullopt;
+  if ((point - last.point).squaredNorm() < last.movement * std::abs(last.movement) &&
+      (last.triangle != Tin::kNone || max_normal_distance <= last.within)) {
+    if (last.triangle == Tin::kNone) return std::nullopt;
+    const tin::TriangleDistance distance = tin::triangleDistance(tin_, last.triangle, point);
+    if (distance.distance_sq > max_normal_distance * max_normal_distance) return std::nullopt;
+    return matchOf(tin_, last.triangle, distance, point);
+  }
+  // Twice the movement, by which two distances may approach each other.
+  const tin::Closest found =
+      tin::closestTriangle(tin_, point, max_normal_distance, 2.0 * margin, last.under);
+  last = {last.under, found.triangle, point, max_normal_distance,
+          freeMovement(found, max_normal_distance)};
+  return matchOf(tin_, found.triangle, found.distance, point);
 }
 
 std::optional<PatchMatch> PatchSurface::vertical(const Eigen::Vector3d& point) const {
   if (!point.allFinite()) return std::nullopt;
   const std::int32_t triangle = tin_.locate(point.x(), point.y());
   if (triangle == Tin::kNone) return std::nullopt;
-  PatchMatch match = matchOf(tin_, triangle, point);
+  PatchMatch match = matchOf(tin_, triangle, tin::areaNormal(tin_, triangle), point);
   const auto& vertex = tin_.triangles()[triangle].vertex;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d& a = tin_.points()[vertex[(i + 1) % 3]];

@@ -43,11 +43,14 @@ Vector3d areaNormal(const Tin& tin, std::int32_t triangle) {
   return (tin.points()[t.vertex[1]] - a).cross(tin.points()[t.vertex[2]] - a);
 }
 
-Vector3d unitNormal(const Tin& tin, std::int32_t triangle) {
-  const Vector3d n = areaNormal(tin, triangle);
-  const double length = n.norm();
+Vector3d unitUpward(const Vector3d& area_normal) {
+  const double length = area_normal.norm();
   if (length == 0.0) return Vector3d::UnitZ();
-  return n * (std::copysign(1.0, n.z()) / length);
+  return area_normal * (std::copysign(1.0, area_normal.z()) / length);
+}
+
+Vector3d unitNormal(const Tin& tin, std::int32_t triangle) {
+  return unitUpward(areaNormal(tin, triangle));
 }
 
 TriangleDistance triangleDistance(const Tin& tin, std::int32_t triangle, const Vector3d& point) {
@@ -57,6 +60,7 @@ TriangleDistance triangleDistance(const Tin& tin, std::int32_t triangle, const V
   const Vector3d ap = point - a, n = ab.cross(ac);
   const double nn = n.squaredNorm();
   TriangleDistance result;
+  result.normal = n;
   if (nn == 0.0) {  // moved points can do this; its edges still have a distance
     result.weights.setConstant(-1.0);
   } else {

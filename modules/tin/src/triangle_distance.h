@@ -17,11 +17,15 @@ Eigen::Vector3d areaNormal(const Tin& tin, std::int32_t triangle);
 /// areaNormal() made unit and upward; straight up for a triangle without area.
 Eigen::Vector3d unitNormal(const Tin& tin, std::int32_t triangle);
 
+/// An areaNormal() made unit and upward.
+Eigen::Vector3d unitUpward(const Eigen::Vector3d& area_normal);
+
 /// Distance of a point from a triangle in 3D.
 struct TriangleDistance {
   double distance_sq = 0.0;  ///< square metres
   bool inside = false;       ///< the point's projection along the normal falls inside
   Eigen::Vector3d weights;   ///< barycentric coordinates of the projection
+  Eigen::Vector3d normal;    ///< areaNormal() of the triangle
 };
 
 /// The same bits for an edge or vertex whichever of its triangles is asked, so ties are ties.

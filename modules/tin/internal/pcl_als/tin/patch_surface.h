@@ -43,6 +43,18 @@ struct PatchQuality {
   bool on_hull = false;  ///< touches the border of the TIN: one of its vertices lies on it
 };
 
+struct SurfaceCriterion;
+
+/// What a search found for a point: the next one, after a small movement of the point, mostly finds
+/// the same triangle and need not search.
+struct PatchSearch {
+  std::int32_t under = Tin::kNone;     ///< triangle in plan, where a search starts
+  std::int32_t triangle = Tin::kNone;  ///< the closest one; kNone: none within the distance
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of the last search
+  double within = 0.0;                              ///< metres, of the last search
+  double movement = 0.0;  ///< metres: after shorter ones the same triangle is closest
+};
+
 /** \brief The triangles of a TIN as patches: unit normals, quality, and closest-patch search.
  *
  * Const member functions are thread-safe and use the current positions of the points; nothing is
@@ -63,6 +75,10 @@ class PatchSurface {
   const Tin& tin() const { return tin_; }
   Eigen::Vector3d normal(std::int32_t triangle) const;  ///< unit, upward
   PatchQuality quality(std::int32_t triangle) const;    ///< computed on request; constant time
+  /// The quality of a triangle that satisfies a criterion (SurfaceCriterion::isSatisfiedBy());
+  /// where it does not, only what is needed to know that is computed.
+  std::optional<PatchQuality> suitable(std::int32_t triangle, const SurfaceCriterion& criterion,
+                                       double median_edge) const;
 
   /** \brief The patch conjugate to a point (Habib et al. 2011, section 2.3.1): the closest triangle
    * in 3D, if the projection of the point along its normal lies inside it and the normal distance
@@ -81,6 +97,13 @@ class PatchSurface {
   std::optional<PatchMatch> closest(const Eigen::Vector3d& point, double max_normal_distance,
                                     std::int32_t& hint) const;
 
+  /// The same for a point that moves little from one call to the next, while the TIN does not: the
+  /// triangle of the last search is taken while no other one can be closer. Other triangles are
+  /// looked at up to \a margin (metres) further than the closest; it is the largest movement that
+  /// needs no search.
+  std::optional<PatchMatch> closest(const Eigen::Vector3d& point, double max_normal_distance,
+                                    double margin, PatchSearch& last) const;
+
   /// The patch above or below a point in plan (for vertical control); empty outside the hull. Its
   /// signed_normal_distance is along the normal; weights are those of the vertical projection.
   std::optional<PatchMatch> vertical(const Eigen::Vector3d& point) const;
@@ -88,6 +111,9 @@ class PatchSurface {
   void movePoints(std::vector<Eigen::Vector3d> points);  ///< as Tin::movePoints; normals follow
 
  private:
+  std::optional<PatchQuality> examine(std::int32_t triangle, const SurfaceCriterion* criterion,
+                                      double median_edge) const;
+
   Tin tin_;
 };
 
