@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <pcl_als/adjustment/correlated_errors.h>
@@ -92,26 +93,37 @@ double ScatterBySlope::all() const {
   return std::sqrt(squares / std::max(count, 1.0));
 }
 
-ScatterBySlope PatchAdjustment::scatter(const Unknowns& unknowns) const {
-  std::vector<double> rests(pairs_.size());
+PatchAdjustment::PatchAdjustment(const PatchPairs& pairs, const AdjustmentFrame& frame,
+                                 const RobustWeight& robust, int threads)
+    : pairs_(pairs), equations_(pairs.size()), frame_(frame), robust_(robust), threads_(threads) {
   parallelFor(chunks(pairs_.size()), threads_, [&](std::size_t chunk) {
     const std::size_t end = std::min(pairs_.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i)
-      rests[i] = (pairs_[i].distance + frame_.rowOf(pairs_[i]).dot(unknowns)) /
-                 std::sqrt(pairs_[i].variance);
+      equations_[i] = {frame_.rowOf(pairs_[i]), pairs_[i].distance, std::sqrt(pairs_[i].variance),
+                       ScatterBySlope::stepOf(pairs_[i])};
+  });
+}
+
+ScatterBySlope PatchAdjustment::scatter(const Unknowns& unknowns) const {
+  std::vector<double> rests(equations_.size());
+  parallelFor(chunks(equations_.size()), threads_, [&](std::size_t chunk) {
+    const std::size_t end = std::min(equations_.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end; ++i)
+      rests[i] = (equations_[i].distance + equations_[i].row.dot(unknowns)) / equations_[i].root;
   });
   std::array<std::vector<double>, ScatterBySlope::kSteps> steps;
-  for (std::size_t i = 0; i < rests.size(); ++i)
-    steps[ScatterBySlope::stepOf(pairs_[i])].push_back(rests[i]);
+  steps[0].reserve(equations_.size());
+  for (std::size_t i = 0; i < rests.size(); ++i) steps[equations_[i].step].push_back(rests[i]);
   ScatterBySlope result;
+  std::optional<double> of_all;
   for (int i = 0; i < ScatterBySlope::kSteps; ++i) {
     result.pairs[i] = steps[i].size();
     if (result.pairs[i] == 0) continue;
+    const bool few = result.pairs[i] < kFewestInStep;
+    if (few && !of_all) of_all = robustSigma(rests);
     // About zero and not about the median, so that a class with an offset has a larger scatter.
     result.sigma[i] =
-        std::max(result.pairs[i] < kFewestInStep ? robustSigma(rests)
-                                                 : robustSigmaAboutZero(std::move(steps[i])),
-                 kLeastScatter);
+        std::max(few ? *of_all : robustSigmaAboutZero(std::move(steps[i])), kLeastScatter);
   }
   // Where the scatter is held, pairs of such a class may be formed later.
   const double largest = result.largest();
@@ -120,9 +132,9 @@ ScatterBySlope PatchAdjustment::scatter(const Unknowns& unknowns) const {
   return result;
 }
 
-double PatchAdjustment::weightOf(double rest, const PatchPair& pair,
+double PatchAdjustment::weightOf(double rest, const Equation& equation,
                                  const ScatterBySlope& scatter) const {
-  const double sigma = scatter.sigmaOf(pair);
+  const double sigma = scatter.sigma[equation.step] * equation.root;
   return robust_(rest, sigma) / (sigma * sigma);
 }
 
@@ -135,11 +147,11 @@ NormalEquations PatchAdjustment::accumulate(const Unknowns& unknowns,
     NormalEquations sum;
     const std::size_t end = std::min(pairs_.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      const Unknowns row = frame_.rowOf(pairs_[i]);
-      const double rest = pairs_[i].distance + row.dot(unknowns);
-      const double weight = weightOf(rest, pairs_[i], scatter);
+      const Equation& equation = equations_[i];
+      const double rest = equation.distance + equation.row.dot(unknowns);
+      const double weight = weightOf(rest, equation, scatter);
       if (weight == 0.0) continue;
-      sum.add(row, rest, weight);
+      sum.add(equation.row, rest, weight);
       if (i % sample == 0 && pairs_[i].tilt_variance > 0.0)
         sum.noise += of_sample * weight * frame_.noiseOf(pairs_[i]);
     }
@@ -175,9 +187,10 @@ Unknowns PatchAdjustment::solve(double limit, double prior, Weighting& weighting
 std::vector<NormalEquations> PatchAdjustment::accumulateGroups(const ScatterBySlope& scatter,
                                                                std::size_t groups) const {
   std::vector<NormalEquations> all(groups);
-  for (const PatchPair& pair : pairs_) {
-    const double weight = weightOf(pair.distance, pair, scatter);
-    if (weight > 0.0) all[pair.group].add(frame_.rowOf(pair), pair.distance, weight);
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const Equation& equation = equations_[i];
+    const double weight = weightOf(equation.distance, equation, scatter);
+    if (weight > 0.0) all[pairs_[i].group].add(equation.row, equation.distance, weight);
   }
   return all;
 }
@@ -188,11 +201,12 @@ UnknownsMatrix PatchAdjustment::correlated(const ScatterBySlope& scatter,
   if (strong == 0) return UnknownsMatrix::Zero();
   const Eigen::MatrixXd basis = directions.basis();
   CorrelatedErrors errors(strong, 3);
-  for (const PatchPair& pair : pairs_) {
-    const double weight = weightOf(pair.distance, pair, scatter);
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const Equation& equation = equations_[i];
+    const double weight = weightOf(equation.distance, equation, scatter);
     if (weight == 0.0) continue;
-    const CorrelatedErrors::Row row = basis.transpose() * frame_.rowOf(pair);
-    errors.add(pair.position.head<2>(), row, pair.normal, weight, pair.distance);
+    const CorrelatedErrors::Row row = basis.transpose() * equation.row;
+    errors.add(pairs_[i].position.head<2>(), row, pairs_[i].normal, weight, equation.distance);
   }
   const CorrelatedErrors::Result result = errors.solve();
   if (!result.determined) return UnknownsMatrix::Zero();

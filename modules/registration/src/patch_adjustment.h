@@ -114,8 +114,7 @@ constexpr RobustWeight kTrusting{10.0, 20.0};
 class PatchAdjustment {
  public:
   PatchAdjustment(const PatchPairs& pairs, const AdjustmentFrame& frame, const RobustWeight& robust,
-                  int threads)
-      : pairs_(pairs), frame_(frame), robust_(robust), threads_(threads) {}
+                  int threads);
 
   /// A few solutions with the weights of the one before, in directions with a standard deviation of
   /// at most \a limit and with the a priori one \a prior (metres); updates \a weighting.
@@ -130,9 +129,17 @@ class PatchAdjustment {
   UnknownsMatrix correlated(const ScatterBySlope& scatter, const Directions& directions) const;
 
  private:
-  double weightOf(double rest, const PatchPair& pair, const ScatterBySlope& scatter) const;
+  /// What every solution needs of a pair.
+  struct Equation {
+    Unknowns row;     ///< d distance / d unknowns
+    double distance;  ///< metres
+    double root;      ///< of the variance
+    int step;         ///< of the slope
+  };
+  double weightOf(double rest, const Equation& equation, const ScatterBySlope& scatter) const;
 
   const PatchPairs& pairs_;
+  std::vector<Equation> equations_;
   const AdjustmentFrame& frame_;
   RobustWeight robust_;
   int threads_;
