@@ -10,6 +10,8 @@ for tool in "$bin"/pcl_als_*; do
   for help in -h -help --help; do
     expect 0 "Usage: pcl_als_$verb*Options (one dash or two):*--threads*Example:*Exit status:" "$verb" $help
   done
+  mv out.txt "help_$verb.txt"
+  "$tool" -list_options >"options_$verb.txt"
   for version in -version --version; do expect 0 "pcl_als_$verb [0-9]*.[0-9]*.[0-9]" "$verb" $version; done
   expect 1 "bogus" "$verb" -bogus 1
   expect 1 "bogus" "$verb" --bogus=1
@@ -20,11 +22,11 @@ done
 
 # The text of every option speaks of options that the tool has, and is whole on the manual page.
 texts() {  # VERB: the name and the text of every option, as -h prints them
-  "$bin/pcl_als_$1" -h | awk '/^Options/ { on = 1; next } /^Example/ { on = 0 } /^[A-Z]/ { next }
+  awk '/^Options/ { on = 1; next } /^Example/ { on = 0 } /^[A-Z]/ { next }
     on && /^  --/ { if (name != "") print name "\t" text; name = $1; text = ""; sub(/^  --[^ ]+/, "")
                     if (!sub(/^.*  +/, "")) next }
     on && NF { sub(/^ +/, ""); text = text (text == "" ? "" : " ") $0 }
-    END { print name "\t" text }'
+    END { print name "\t" text }' "help_$1.txt"
 }
 # wrong_texts NAMES PAGE TEXTS: options without a text, with one that speaks of an option that is not among the
 # names, and with another one on the manual page.
@@ -53,22 +55,21 @@ man_page=$here/../../share/cmake/man_page.awk
 for tool in "$bin"/pcl_als_*; do
   verb=${tool##*/pcl_als_}
   texts "$verb" >texts.txt
-  "$tool" -h | awk -v tool="pcl_als_$verb" -v version=1 -v manual=page -f "$man_page" >page.1
-  "$tool" -list_options | awk -F'\t' 'NR > 1 && $1 != "IN" && $1 != "OUT" { print $1 } END { print "h" }' >names.txt
+  awk -v tool="pcl_als_$verb" -v version=1 -v manual=page -f "$man_page" "help_$verb.txt" >"page_$verb.1"
+  awk -F'\t' 'NR > 1 && $1 != "IN" && $1 != "OUT" { print $1 } END { print "h" }' "options_$verb.txt" >names.txt
   checks=$((checks + 1))
-  while IFS= read -r wrong; do failed "pcl_als_$verb: $wrong"; done < <(wrong_texts names.txt page.1 texts.txt)
+  while IFS= read -r wrong; do failed "pcl_als_$verb: $wrong"; done < <(wrong_texts names.txt "page_$verb.1" texts.txt)
   [[ $(($(wc -l <texts.txt) + 1)) == $(wc -l <names.txt) ]] || failed "pcl_als_$verb: -h and -list_options differ"
 done
 
 # The parts of -h are those of the manual page, and -list_options names the part of each option.
 for tool in "$bin"/pcl_als_*; do
   verb=${tool##*/pcl_als_}
-  "$tool" -h | awk '/^Options/ { on = 1; next } /^Example/ { on = 0 } on && /^[A-Z].*:$/ { sub(/:$/, ""); print }' >parts.txt
-  "$tool" -h | awk -v tool="pcl_als_$verb" -v version=1 -v manual=page -f "$man_page" >page.1
-  check "parts of the manual page of $verb" cmp parts.txt <(sed -n 's/^\.SS //p' page.1)
-  check "parts of $verb are listed" test "$("$tool" -list_options |
-    awk -F'\t' 'NR == 1 && $9 == "group" { named = 1 } NR > 1 && $1 != "IN" && $1 != "OUT" { seen[$9] }
-      END { print named ? length(seen) : "none" }')" == "$(wc -l <parts.txt)"
+  awk '/^Options/ { on = 1; next } /^Example/ { on = 0 } on && /^[A-Z].*:$/ { sub(/:$/, ""); print }' "help_$verb.txt" >parts.txt
+  check "parts of the manual page of $verb" cmp parts.txt <(sed -n 's/^\.SS //p' "page_$verb.1")
+  check "parts of $verb are listed" test "$(awk -F'\t' 'NR == 1 && $9 == "group" { named = 1 }
+      NR > 1 && $1 != "IN" && $1 != "OUT" { seen[$9] }
+      END { print named ? length(seen) : "none" }' "options_$verb.txt")" == "$(wc -l <parts.txt)"
 done
 check "needed options first" test "$("$bin/pcl_als_calibrate" -h | grep -A1 '^Output:' | grep -o -- '--[a-z]*')" == --output
 
