@@ -7,7 +7,6 @@
 
 #include <pcl_als/adjustment/overlap_variation.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/radiometry/radiometric_cells.h>
 
 namespace pcl_als {
 namespace {
