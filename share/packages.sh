@@ -75,6 +75,7 @@ pcl_als_install() {
   if "${apt[@]}" update >"$log" 2>&1 &&
      "${apt[@]}" install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1 </dev/null; then
     rm -f -- "$log"
+    pcl_als_installed=yes
   else
     tail -n 20 "$log" >&2
     echo "apt-get could not install ${missing[*]} (whole log: $log)" >&2
@@ -90,6 +91,9 @@ pcl_als_configure() {
     rm -rf -- "$cache" "$pcl_als_build/CMakeFiles"
   fi
   [[ -f $cache ]] || first=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF)
+  # Where nothing is new, building configures again if files of CMake changed.
+  [[ $# -gt 0 || ${#first[@]} -gt 0 || -n ${pcl_als_installed:-} ||
+     ! -f $pcl_als_build/cmake_install.cmake ]] || return 0
   local log=$pcl_als_build/configure.log
   mkdir -p -- "$pcl_als_build"
   cmake -S "$pcl_als_root" -B "$pcl_als_build" "${first[@]}" "$@" >"$log" 2>&1 || {
