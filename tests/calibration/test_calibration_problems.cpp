@@ -23,11 +23,21 @@ using simulation::SimulationOptions;
 using test::joinedTexts;
 using test::SimulatedSurvey;
 
-SimulatedSurvey smallBlock() {
-  SimulationOptions options = SimulationOptions::preset("small", 1.0, 0.5);
-  options.noise = NoiseOptions::named("range");
-  options.seed = 17;
-  return SimulatedSurvey(options);
+/// Simulated once; tests that change it take a copy.
+const SimulatedSurvey& smallBlock() {
+  static const SimulatedSurvey block = [] {
+    SimulationOptions options = SimulationOptions::preset("small", 1.0, 0.5);
+    options.noise = NoiseOptions::named("range");
+    options.seed = 17;
+    return SimulatedSurvey(options);
+  }();
+  return block;
+}
+
+/// Its calibration with nothing wrong.
+const CalibrationResult& goodResult() {
+  static const CalibrationResult result = smallBlock().calibrate();
+  return result;
 }
 
 /// The number behind a text in the warnings; NaN where the text is not there.
@@ -37,7 +47,7 @@ double numberAfter(const std::string& text, const std::string& warnings) {
 }
 
 TEST(CalibrationProblems, AGoodBlockIsUsableWithoutWarnings) {
-  const CalibrationResult result = smallBlock().calibrate();
+  const CalibrationResult& result = goodResult();
   EXPECT_EQ(result.verdict.status, CalibrationStatus::usable) << result.verdict.reason;
   EXPECT_LT(result.misfit.change(), -2.0 * result.misfit.change_std);
   EXPECT_EQ(joinedTexts(result.warnings), "");
@@ -60,11 +70,10 @@ std::vector<P> leftOutAtTheLimit(const CalibrationResult& result) {
 /// 2026-11-22: an iteration that reached its limit ended without a result, cause or advice, though
 /// fewer parameters converge at once. A limit of one iteration is reached by every block.
 TEST(CalibrationProblems, AtTheLimitOfIterationsTheMostRestlessParameterIsExcluded) {
-  const SimulatedSurvey survey = smallBlock();
+  EXPECT_TRUE(leftOutAtTheLimit(goodResult()).empty());
   CalibrationSettings settings;
-  EXPECT_TRUE(leftOutAtTheLimit(survey.calibrate(settings)).empty());
   settings.max_iterations = 1;
-  const CalibrationResult result = survey.calibrate(settings);
+  const CalibrationResult result = smallBlock().calibrate(settings);
   EXPECT_TRUE(result.converged);
   const std::vector<P> left = leftOutAtTheLimit(result);
   ASSERT_GE(left.size(), 1U);
@@ -191,7 +200,7 @@ std::string refusalOfControl(const SimulatedSurvey& survey, bool force = false) 
 }
 
 TEST(CalibrationProblems, ControlInAnotherSystemIsRefusedWithTheCause) {
-  const SimulatedSurvey survey = smallBlock();
+  const SimulatedSurvey& survey = smallBlock();
   EXPECT_EQ(refusalOfControl(survey), "none");
   const auto with = [&](const auto& change) {
     SimulatedSurvey other = survey;
