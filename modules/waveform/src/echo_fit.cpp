@@ -159,7 +159,7 @@ void EchoFit::addPriors(const EchoModel& model, double noise) {
 /// \return false if the damped normal equations are singular
 bool EchoFit::step(const EchoModel& from, double damping, EchoModel& to) {
   const auto n = static_cast<std::size_t>(size_);
-  std::array<double, kMostParameters> change;  // of which only size_ are used
+  std::array<double, kMostParameters> change{};  // of which only size_ are used
   std::copy_n(normal_.data(), n * n, factor_.data());
   for (std::size_t a = 0; a < n; ++a) factor_[a * n + a] *= 1.0 + damping;
   if (!factorise(factor_.data(), size_)) return false;

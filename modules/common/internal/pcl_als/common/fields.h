@@ -176,7 +176,10 @@ template <typename V, typename Leaf>
 void fromNode(V& value, const Leaf& leaf, const FieldNode& node, const FieldRow& row) {
   if constexpr (IsOptional<V>::value) {
     value.reset();
-    if (!node.isNull()) fromNode(value.emplace(), leaf, node, row);
+    if (node.isNull()) return;
+    typename V::value_type read{};
+    fromNode(read, leaf, node, row);
+    value = std::move(read);
   } else if constexpr (IsNamed<V>::value) {
     value.clear();
     for (const std::string& key : node.keys()) {
