@@ -298,29 +298,41 @@ SystemVector Adjustment::derivativeBySource(ErrorSource source,
   return influence.biases.col(0) / influence.shared(errors_.sourceUnknown(source), 0);
 }
 
-std::vector<Eigen::VectorXd> Adjustment::areaScores(const Influence& influence,
-                                                    const AdjustmentSolution& solution) const {
-  std::vector<Eigen::VectorXd> scores(areas_->normals.size());
-  parallelFor(scores.size(), threads_, [&](std::size_t area) {
+Adjustment::AreaResiduals Adjustment::areaResiduals(const AdjustmentSolution& solution) const {
+  AreaResiduals residuals(areas_->normals.size());
+  parallelFor(residuals.size(), threads_, [&](std::size_t area) {
     const AreaNormal::Reduced own = areas_->normals[area].reduced(errors_.localVariance(levels_));
     const std::vector<int>& knots = areas_->normals[area].knots();
     Eigen::VectorXd unknowns(own.right.size());
-    Eigen::MatrixXd on_values(own.right.size(), influence.biases.cols());
     unknowns.head<kGlobal>() = solution.biases;
-    on_values.topRows<kGlobal>() = influence.biases;
     for (std::size_t i = 0; i < knots.size(); ++i) {
       const auto at = kGlobal + static_cast<Eigen::Index>(i) * kKnot;
       unknowns.segment<kKnot>(at) = solution.shared.segment<kKnot>(knots[i] * kKnot);
+    }
+    residuals[area] = own.right - own.matrix * unknowns;
+  });
+  return residuals;
+}
+
+std::vector<Eigen::VectorXd> Adjustment::areaScores(const Influence& influence,
+                                                    const AreaResiduals& residuals) const {
+  std::vector<Eigen::VectorXd> scores(residuals.size());
+  parallelFor(scores.size(), threads_, [&](std::size_t area) {
+    const std::vector<int>& knots = areas_->normals[area].knots();
+    Eigen::MatrixXd on_values(residuals[area].size(), influence.biases.cols());
+    on_values.topRows<kGlobal>() = influence.biases;
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+      const auto at = kGlobal + static_cast<Eigen::Index>(i) * kKnot;
       on_values.middleRows<kKnot>(at) = influence.shared.middleRows<kKnot>(knots[i] * kKnot);
     }
-    scores[area] = on_values.transpose() * (own.right - own.matrix * unknowns);
+    scores[area] = on_values.transpose() * residuals[area];
   });
   return scores;
 }
 
 Adjustment::SourceCertainty Adjustment::sourceCertainty(const Influence& influence,
                                                         const AdjustmentSolution& solution) const {
-  const std::vector<Eigen::VectorXd> moves = areaScores(influence, solution);
+  const std::vector<Eigen::VectorXd> moves = areaScores(influence, areaResiduals(solution));
   Eigen::VectorXd scatter = Eigen::VectorXd::Zero(influence.biases.cols());
   double groups = 0.0;
   for (const Eigen::VectorXd& move : moves) {

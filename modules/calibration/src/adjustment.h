@@ -118,14 +118,15 @@ class Adjustment {
   SystemSolution systemSolution(int system, const std::vector<SystemParameter>& estimate,
                                 const AdjustmentSolution& solution) const;
 
-  /// The differences of a system after the first to the first one, with their covariance, and their
+  /// The differences of systems after the first to the first one, with their covariances, and their
   /// variances by the scatter of the areas (scatterVariance()).
   struct SystemPosterior {
     SystemUnknowns mean, scatter;
     Eigen::Matrix<double, kSystemUnknownCount, kSystemUnknownCount> covariance;
   };
-  SystemPosterior systemPosterior(int system, const std::vector<SystemParameter>& estimate,
-                                  const AdjustmentSolution& solution) const;
+  std::vector<SystemPosterior> systemPosteriors(const std::vector<int>& systems,
+                                                const std::vector<SystemParameter>& estimate,
+                                                const AdjustmentSolution& solution) const;
 
   /// Derivative of the estimated parameters with respect to the value at which an error source is
   /// held that is not considered; internal units.
@@ -184,13 +185,16 @@ class Adjustment {
   Influence differenceInfluence(int system, const SystemMatrix& model) const;
   /// Covariance of the parameters in \a estimate by the model; zero where they are singular.
   SystemMatrix modelCovariance(const std::vector<SystemParameter>& estimate) const;
-  /// The contributions of each area to the values at a solution.
+  /// Right sides of the normal equations of each area that remain at a solution.
+  using AreaResiduals = std::vector<Eigen::VectorXd>;
+  AreaResiduals areaResiduals(const AdjustmentSolution& solution) const;
+  /// The contributions of each area to the values.
   std::vector<Eigen::VectorXd> areaScores(const Influence& influence,
-                                          const AdjustmentSolution& solution) const;
+                                          const AreaResiduals& residuals) const;
   /// Variances of the values, of which the observations' contribution is the scatter of the areas.
   Eigen::VectorXd scatterVariance(const Influence& influence,
                                   const std::vector<SystemParameter>& estimate,
-                                  const AdjustmentSolution& solution) const;
+                                  const AreaResiduals& residuals) const;
   /// Factor by which the scatter between areas makes the variances of the error sources larger than
   /// those of the model, with the degrees of freedom of this scatter.
   struct SourceCertainty {

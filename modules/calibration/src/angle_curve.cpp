@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 
 #include <pcl_als/common/statistics.h>
 
@@ -108,8 +109,9 @@ class CurveAdjustment {
     Rolls rolls;
     const AdjustmentSolution solution = adjustment_.solve(estimate_, SystemVector::Zero());
     if (!solution.solved) return rolls;
-    for (int k = 1; k < kClasses; ++k) {
-      const auto posterior = adjustment_.systemPosterior(k, estimate_, solution);
+    std::vector<int> classes(kClasses - 1);
+    std::iota(classes.begin(), classes.end(), 1);
+    for (const auto& posterior : adjustment_.systemPosteriors(classes, estimate_, solution)) {
       rolls.values.push_back(posterior.mean[kRoll]);
       rolls.variances.push_back(posterior.covariance(kRoll, kRoll));
       rolls.scatter.push_back(posterior.scatter[kRoll]);
@@ -175,22 +177,28 @@ AngleCurve angleCurve(const AdjustedBlock& block, const WeightedObservations& ob
                              sources);
   double absent = adjustment.deviance(0.0);
   if (!std::isfinite(absent)) return curve;
-  double best = kExpected, least = HUGE_VAL;
-  for (const double size : kSizes) {
-    const double deviance = adjustment.deviance(size);
-    if (deviance < least) least = deviance, best = size;
-  }
+  std::array<double, kSizes.size()> deviances{};
+  const auto evaluate = [&] {
+    std::transform(kSizes.begin(), kSizes.end(), deviances.begin(),
+                   [&](double size) { return adjustment.deviance(size); });
+  };
+  evaluate();
+  const auto least = std::min_element(deviances.begin(), deviances.end());
+  const double best =
+      *least < HUGE_VAL ? kSizes[static_cast<std::size_t>(least - deviances.begin())] : kExpected;
   constexpr double kWorthwhile = 10.0;  // of the deviance
-  if (least < absent - kWorthwhile) adjustment.estimateComponents(best);
+  if (*least < absent - kWorthwhile) {
+    adjustment.estimateComponents(best);
+    evaluate();
+  }
   const CurveAdjustment::Rolls rolls = adjustment.rolls(best);
   if (rolls.values.empty()) return curve;
   const double overdispersion = overdispersionOf(rolls);
   // Of the components of the alternative: those of the hypothesis of no curve fit it better.
   double factor = 0.0;
-  for (const double size : kSizes)
-    factor +=
-        std::exp(std::min(500.0, 0.5 * (absent - adjustment.deviance(size)) / overdispersion)) /
-        static_cast<double>(kSizes.size());
+  for (const double deviance : deviances)
+    factor += std::exp(std::min(500.0, 0.5 * (absent - deviance) / overdispersion)) /
+              static_cast<double>(kSizes.size());
   finding.probability =
       (1.0 - kDifferenceAbsent) * factor / (kDifferenceAbsent + (1.0 - kDifferenceAbsent) * factor);
   curve.errors = curveOf(rolls, largest_angle);

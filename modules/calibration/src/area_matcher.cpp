@@ -146,12 +146,11 @@ void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
   criterion.edge_factor = criterion.slope = std::numeric_limits<double>::infinity();
   std::vector<std::vector<std::int32_t>> classes(OrientationClasses::kCount);
   for (const std::int32_t triangle : chosenEvenly(rough, kExaminedPerCandidate * count)) {
-    const PatchQuality quality = part.surface.quality(triangle);
-    if (!criterion.isSatisfiedBy(quality, part.median_edge) || quality.plane_normal.z() < least_z)
-      continue;
-    classes[OrientationClasses::of(quality.plane_normal)].push_back(
+    const auto quality = part.surface.suitable(triangle, criterion, part.median_edge);
+    if (!quality || quality->plane_normal.z() < least_z) continue;
+    classes[OrientationClasses::of(quality->plane_normal)].push_back(
         part.surface.tin().triangles()[triangle].vertex[0]);
-    if (quality.slope < kGentleSlope && !part.held()) part.roughness.push_back(quality.roughness);
+    if (quality->slope < kGentleSlope && !part.held()) part.roughness.push_back(quality->roughness);
   }
   part.candidates = chosenEvenly(classes, count);
   std::sort(part.candidates.begin(), part.candidates.end());
@@ -347,13 +346,12 @@ void AreaMatcher::matchSurfaces(Matching& matching, std::size_t a, std::size_t b
     const std::int32_t i = all ? from.candidates[c] : kept->second[c].point;
     const auto match = to.surface.closest(from.surface.tin().points()[i], matching.limits.far);
     if (!match) continue;
-    const PatchQuality quality = to.surface.quality(match->triangle);
-    if (!criterion.isSatisfiedBy(quality, to.median_edge) ||
-        !matching.point.atPoint(from, i, quality) ||
-        !matching.foot.atFoot(to, *match, quality, matching.vertex))
+    const auto quality = to.surface.suitable(match->triangle, criterion, to.median_edge);
+    if (!quality || !matching.point.atPoint(from, i, *quality) ||
+        !matching.foot.atFoot(to, *match, *quality, matching.vertex))
       continue;
     observation.point = i;
-    measure(matching.point, matching.foot, measuringDirection(to, match->triangle, quality),
+    measure(matching.point, matching.foot, measuringDirection(to, match->triangle, *quality),
             observation);
     if (std::abs(match->signed_normal_distance) > matching.limits.near) {
       found.far.push_back(observation);

@@ -215,8 +215,8 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
     other.setVarianceFactors(adjustment.levels());
     estimateLevels(other, choice.estimate, adjustment.levels());
     const AdjustmentSolution solution = other.solve(choice.estimate, choice.solution.biases);
-    const SpikeAndSlab mixture =
-        mixtureOf(unknowns, other.systemPosterior(system, choice.estimate, solution), freedom);
+    const SpikeAndSlab mixture = mixtureOf(
+        unknowns, other.systemPosteriors({system}, choice.estimate, solution).front(), freedom);
     for (std::size_t i = 0; i < unknowns.size(); ++i) {
       const DifferenceUnknown& u = unknowns[i];
       ErrorFinding finding = differenceFinding(u, mixture, static_cast<Eigen::Index>(i), edge);

@@ -11,9 +11,9 @@
 namespace pcl_als {
 Eigen::VectorXd Adjustment::scatterVariance(const Influence& influence,
                                             const std::vector<SystemParameter>& estimate,
-                                            const AdjustmentSolution& solution) const {
+                                            const AreaResiduals& residuals) const {
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(influence.biases.cols());
-  for (const Eigen::VectorXd& score : areaScores(influence, solution))
+  for (const Eigen::VectorXd& score : areaScores(influence, residuals))
     variance += score.cwiseAbs2();
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels_);
   const SystemMatrix known = errors_.model().biases.marginal(estimate).information;
@@ -41,17 +41,22 @@ Adjustment::Influence Adjustment::differenceInfluence(int system, const SystemMa
   return influence;
 }
 
-Adjustment::SystemPosterior Adjustment::systemPosterior(
-    int system, const std::vector<SystemParameter>& estimate,
+std::vector<Adjustment::SystemPosterior> Adjustment::systemPosteriors(
+    const std::vector<int>& systems, const std::vector<SystemParameter>& estimate,
     const AdjustmentSolution& solution) const {
-  const Eigen::Index at = Eigen::Index{errors_.systemBlock(system)} * SharedErrors::kPerKnot;
-  const Influence influence = differenceInfluence(system, modelCovariance(estimate));
-  SystemPosterior posterior;
-  posterior.mean = solution.shared.segment<kSystemUnknownCount>(at);
-  const auto covariance = influence.shared.middleRows<kSystemUnknownCount>(at);
-  posterior.covariance = 0.5 * (covariance + covariance.transpose());
-  posterior.scatter = scatterVariance(influence, estimate, solution);
-  return posterior;
+  const SystemMatrix model = modelCovariance(estimate);
+  const AreaResiduals residuals = areaResiduals(solution);
+  std::vector<SystemPosterior> posteriors;
+  for (const int system : systems) {
+    const Eigen::Index at = Eigen::Index{errors_.systemBlock(system)} * SharedErrors::kPerKnot;
+    const Influence influence = differenceInfluence(system, model);
+    SystemPosterior& posterior = posteriors.emplace_back();
+    posterior.mean = solution.shared.segment<kSystemUnknownCount>(at);
+    const auto covariance = influence.shared.middleRows<kSystemUnknownCount>(at);
+    posterior.covariance = 0.5 * (covariance + covariance.transpose());
+    posterior.scatter = scatterVariance(influence, estimate, residuals);
+  }
+  return posteriors;
 }
 
 Adjustment::SystemSolution Adjustment::systemSolution(int system,
@@ -66,8 +71,9 @@ Adjustment::SystemSolution Adjustment::systemSolution(int system,
   Influence on_own = on_difference;
   on_own.biases.leftCols<kSystemParameterCount>() += model;
   on_own.shared.leftCols<kSystemParameterCount>() -= reduced_->elimination * model;
-  const Eigen::VectorXd scatter = scatterVariance(on_difference, estimate, solution);
-  const Eigen::VectorXd own_scatter = scatterVariance(on_own, estimate, solution);
+  const AreaResiduals residuals = areaResiduals(solution);
+  const Eigen::VectorXd scatter = scatterVariance(on_difference, estimate, residuals);
+  const Eigen::VectorXd own_scatter = scatterVariance(on_own, estimate, residuals);
   for (int i = 0; i < kUnknowns; ++i) {
     const double variance = on_difference.shared(at + i, i);
     result.difference_std[i] = std::sqrt(std::max(variance, scatter[i]));
