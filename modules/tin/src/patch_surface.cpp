@@ -77,16 +77,19 @@ std::optional<PatchMatch> PatchSurface::closest(const Eigen::Vector3d& point,
                                                 PatchSearch& last) const {
   checkDistance(max_normal_distance);
   if (!point.allFinite()) return std::nullopt;
-  if ((point - last.point).squaredNorm() < last.movement * std::abs(last.movement) &&
+  const double moved = (point - last.point).norm();
+  if (moved < last.movement &&
       (last.triangle != Tin::kNone || max_normal_distance <= last.within)) {
     if (last.triangle == Tin::kNone) return std::nullopt;
     const tin::TriangleDistance distance = tin::triangleDistance(tin_, last.triangle, point);
     if (distance.distance_sq > max_normal_distance * max_normal_distance) return std::nullopt;
     return matchOf(tin_, last.triangle, distance, point);
   }
-  // Twice the movement, by which two distances may approach each other.
+  // Twice the movement, by which two distances may approach each other. After a larger movement the
+  // next one is mostly large, too, and other triangles would be looked at in vain.
+  const double further = moved < margin ? 2.0 * margin : 0.0;
   const tin::Closest found =
-      tin::closestTriangle(tin_, point, max_normal_distance, 2.0 * margin, last.under);
+      tin::closestTriangle(tin_, point, max_normal_distance, further, last.under);
   last = {last.under, found.triangle, point, max_normal_distance,
           freeMovement(found, max_normal_distance)};
   return matchOf(tin_, found.triangle, found.distance, point);

@@ -98,9 +98,9 @@ class PatchSurface {
                                     std::int32_t& hint) const;
 
   /// The same for a point that moves little from one call to the next, while the TIN does not: the
-  /// triangle of the last search is taken while no other one can be closer. Other triangles are
-  /// looked at up to \a margin (metres) further than the closest; it is the largest movement that
-  /// needs no search.
+  /// triangle of the last search is taken while no other one can be closer. \a margin (metres) is
+  /// the largest movement that needs no search; after a larger one since the last search, other
+  /// triangles than the closest are not looked at, and the next call searches again.
   std::optional<PatchMatch> closest(const Eigen::Vector3d& point, double max_normal_distance,
                                     double margin, PatchSearch& last) const;
 
