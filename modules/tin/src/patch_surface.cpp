@@ -87,9 +87,9 @@ std::optional<PatchMatch> PatchSurface::closest(const Eigen::Vector3d& point,
   }
   // Twice the movement, by which two distances may approach each other. After a larger movement the
   // next one is mostly large, too, and other triangles would be looked at in vain.
-  const double further = moved < margin ? 2.0 * margin : 0.0;
+  const double extra = moved < margin ? 2.0 * margin : 0.0;
   const tin::Closest found =
-      tin::closestTriangle(tin_, point, max_normal_distance, further, last.under);
+      tin::closestTriangle(tin_, point, max_normal_distance, extra, last.under);
   last = {last.under, found.triangle, point, max_normal_distance,
           freeMovement(found, max_normal_distance)};
   return matchOf(tin_, found.triangle, found.distance, point);
