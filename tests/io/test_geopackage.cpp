@@ -90,7 +90,7 @@ TEST(GeoPackage, GeometriesAreInTheUnitOfTheCrs) {
 // A ring of cells of 10 m around a hole, and a cell apart: 9 cells, two parts, one hole.
 TEST(GeoPackage, HasOutlinesOfCells) {
   const fs::path path = test::scratch("geopackage_areas") / "areas.gpkg";
-  GeoTable table{"strips", "strip\nnorth\nnothing\n"};
+  GeoTable table{"strips", "strip,area_m2\nnorth,900\nnothing,0\n"};
   table.areas = {rasterOf(5, 3,
                           {7, 7, 7, 0, 0,  //
                            7, 0, 7, 0, 7,  //

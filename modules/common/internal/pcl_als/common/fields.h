@@ -175,11 +175,9 @@ FieldValue toValue(const V& value, const Leaf& leaf, const FieldRow& row) {
 template <typename V, typename Leaf>
 void fromNode(V& value, const Leaf& leaf, const FieldNode& node, const FieldRow& row) {
   if constexpr (IsOptional<V>::value) {
-    value.reset();
-    if (node.isNull()) return;
     typename V::value_type read{};
-    fromNode(read, leaf, node, row);
-    value = std::move(read);
+    if (!node.isNull()) fromNode(read, leaf, node, row);
+    value = node.isNull() ? V() : V(std::move(read));
   } else if constexpr (IsNamed<V>::value) {
     value.clear();
     for (const std::string& key : node.keys()) {

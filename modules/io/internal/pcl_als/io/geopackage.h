@@ -13,8 +13,8 @@ namespace pcl_als {
 /// A table of a GeoPackage.
 struct GeoTable {
   std::string name;
-  /// Lines of values behind a line of names. A column whose values are all numbers is one of
-  /// numbers.
+  /// Lines of values, of two columns at least, behind a line of names. A column whose values are
+  /// all numbers is one of numbers.
   std::string csv;
   /// One for each line: the cells that are not 0 are its area. Empty: the columns x and y are its
   /// place, metres; a line without a place has none in the file.
