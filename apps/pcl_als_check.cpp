@@ -185,7 +185,7 @@ int check(const CommandLine& line) {
   if (line.has("gis")) {
     Step step("Writing " + line.text("gis"), line.quiet());
     writeQualityLayers(line.text("gis"), report, page.coverage(), page.strips(), checked.crs);
-    step.done("");
+    step.done(report.block.control ? "strips, pairs, offsets, control" : "strips, pairs, offsets");
   }
   const std::string unreliable = whyUnreliable(report.block);
   return unreliable.empty() ? concludeRequirement(line, report) : app::conclude(line, unreliable);

@@ -189,13 +189,13 @@ void PulsePoints::append(const PulseRecord& pulse, std::uint64_t index,
   }
 }
 
-void PulsePoints::addExamples(const PulseRecord& pulse, std::uint64_t index,
-                              std::vector<WaveformExample>& examples) {
+void PulsePoints::takeExamples(const PulseRecord& pulse, std::uint64_t index,
+                               const TakeExample& take) {
   reader_.read(pulse, index, segments_);
   for (const PulseSegment& segment : segments_) {
     if (segment.sampling->type != PulseSampling::Type::returning) continue;
     echoes_.decompose(segment.waveform, {});
-    examples.push_back(echoes_.example(index));
+    take(echoes_.example(index));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <pcl_als/processing/waveform_job.h>
 #include <pcl_als/waveform/pulse_echoes.h>
 #include <pcl_als/waveform/pulse_waves_reader.h>
+#include <pcl_als/waveform/waveform_examples.h>
 
 namespace pcl_als::detail {
 
@@ -48,9 +49,8 @@ class PulsePoints {
   /// Appends the echoes of a pulse as records, in order of time, and counts them.
   void append(const PulseRecord& pulse, std::uint64_t index, std::vector<std::byte>& records,
               WaveformCounts& counts);
-  /// Its returning waveforms, for users.
-  void addExamples(const PulseRecord& pulse, std::uint64_t index,
-                   std::vector<WaveformExample>& examples);
+  /// Calls \a take with its returning waveforms.
+  void takeExamples(const PulseRecord& pulse, std::uint64_t index, const TakeExample& take);
 
  private:
   struct Echo {

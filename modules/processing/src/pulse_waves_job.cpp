@@ -150,22 +150,13 @@ void addRemarks(const PulseWavesFile& file, std::vector<std::string>& remarks) {
 /// The waveforms of the pulses that are asked for, or a choice from the whole file.
 std::vector<WaveformExample> examplesOf(const PulseJob& job) {
   PulsePoints points(job);
-  WaveformExamples examples;
-  std::vector<WaveformExample> asked;
   std::vector<PulseRecord> pulses;
-  const auto visit = [&](std::uint64_t first, std::size_t count) {
+  const auto run = [&](std::uint64_t first, std::size_t count, const TakeExample& take) {
     job.waves.pulses().read(first, count, pulses);
-    for (std::size_t i = 0; i < count; ++i) points.addExamples(pulses[i], first + i, asked);
+    for (std::size_t i = 0; i < count; ++i) points.takeExamples(pulses[i], first + i, take);
   };
-  for (const std::uint64_t number : job.settings.shown) visit(number, 1);
-  if (!job.settings.shown.empty()) return asked;
-  visitRuns(job.waves.pulses().header().pulse_count, WaveformExamples::kWaveforms,
-            [&](std::uint64_t first, std::size_t count) {
-              asked.clear();
-              visit(first, count);
-              for (const WaveformExample& example : asked) examples.offer(example);
-            });
-  return examples.chosen();
+  const auto one = [&](std::uint64_t number, const TakeExample& take) { run(number, 1, take); };
+  return waveformExamples(job.waves.pulses().header().pulse_count, job.settings.shown, one, run);
 }
 
 }  // namespace

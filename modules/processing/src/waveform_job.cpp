@@ -69,23 +69,20 @@ namespace {
 std::vector<WaveformExample> examplesOf(const detail::EchoJob& job) {
   const std::uint64_t all = job.las.header().point_count;
   detail::EchoWriter echoes(job);
-  WaveformExamples examples;
-  std::vector<WaveformExample> asked;
-  for (const std::uint64_t number : job.settings.shown) {
+  const auto one = [&](std::uint64_t number, const TakeExample& take) {
     const std::uint64_t first = number - std::min<std::uint64_t>(number, kMostPointsOfPulse - 1);
     const std::uint64_t end = std::min(all, number + kMostPointsOfPulse);
     detail::readPulseRun(job.las, first, end - first, [&](const detail::WaveformPulse& pulse) {
       if (number < pulse.first || number >= pulse.first + pulse.count) return;
-      if (auto example = echoes.example(pulse, number)) asked.push_back(std::move(*example));
+      if (const auto example = echoes.example(pulse, number)) take(*example);
     });
-  }
-  if (!job.settings.shown.empty()) return asked;
-  visitRuns(all, WaveformExamples::kWaveforms, [&](std::uint64_t first, std::size_t count) {
+  };
+  const auto run = [&](std::uint64_t first, std::size_t count, const TakeExample& take) {
     detail::readPulseRun(job.las, first, count, [&](const detail::WaveformPulse& pulse) {
-      if (const auto example = echoes.example(pulse, pulse.first)) examples.offer(*example);
+      if (const auto example = echoes.example(pulse, pulse.first)) take(*example);
     });
-  });
-  return examples.chosen();
+  };
+  return waveformExamples(all, job.settings.shown, one, run);
 }
 
 /// decomposeWaveforms() of a file of points.

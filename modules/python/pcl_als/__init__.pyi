@@ -841,7 +841,7 @@ class OffsetSummary:
     def std(self) -> float: ...
     @property
     def std_of_mean(self) -> float:
-        """with correlated errors of places; NaN: unknown"""
+        """allows for errors that places of an area have in common; NaN: unknown"""
 
 class Orientation:
     """The result of orient()."""

@@ -93,7 +93,7 @@ void bindSummary(py::module_& m) {
       .field("percentile_95", &OffsetSummary::percentile_95, "of the absolute values")
       .field("largest", &OffsetSummary::largest, "absolute value")
       .field("std_of_mean", &OffsetSummary::std_of_mean,
-             "with correlated errors of places; NaN: unknown")
+             "allows for errors that places of an area have in common; NaN: unknown")
       .state(&OffsetSummary::std_of_mean_formal)
       .bind();
   Record<HorizontalShift>(m, "HorizontalShift", "Movement of strip a onto strip b, m.")

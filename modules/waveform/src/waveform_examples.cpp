@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/waveform/echo_settings.h>
 #include <pcl_als/waveform/waveform_examples.h>
 
 namespace pcl_als {
@@ -30,6 +31,22 @@ void WaveformExamples::insert(Chosen& among, double order, const WaveformExample
 void WaveformExamples::offer(const WaveformExample& example) {
   insert(by_echoes_[std::min(example.echoes.size(), kKinds - 1)], mixed(example.number), example);
   insert(by_residual_, -example.largest_residual, example);
+}
+
+std::vector<WaveformExample> waveformExamples(
+    std::uint64_t items, const std::vector<std::uint64_t>& asked,
+    const std::function<void(std::uint64_t item, const TakeExample& take)>& readOne,
+    const std::function<void(std::uint64_t first, std::size_t count, const TakeExample& take)>&
+        readRun) {
+  std::vector<WaveformExample> found;
+  for (const std::uint64_t item : asked)
+    readOne(item, [&found](const WaveformExample& example) { found.push_back(example); });
+  if (!asked.empty()) return found;
+  WaveformExamples examples;
+  visitRuns(items, WaveformExamples::kWaveforms, [&](std::uint64_t first, std::size_t count) {
+    readRun(first, count, [&examples](const WaveformExample& example) { examples.offer(example); });
+  });
+  return examples.chosen();
 }
 
 std::vector<WaveformExample> WaveformExamples::chosen() const {

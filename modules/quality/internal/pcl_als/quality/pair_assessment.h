@@ -56,7 +56,7 @@ struct OffsetSummary {
   double percentile_95 = 0.0;  ///< of the absolute values
   double largest = 0.0;        ///< absolute value
   double std_of_mean =
-      0.0;  ///< with correlated errors of places (ClusteredRegression); NaN: unknown
+      0.0;  ///< errors are correlated within areas (ClusteredRegression); NaN: unknown
   double std_of_mean_formal = 0.0;  ///< the same with clusters as independent; NaN: unknown
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -39,5 +40,16 @@ class WaveformExamples {
   std::array<Chosen, kKinds> by_echoes_;
   Chosen by_residual_;
 };
+
+using TakeExample = std::function<void(const WaveformExample&)>;
+
+/// The waveforms of the items (points, pulses) that are asked for, or a choice from all of them.
+/// \param readOne calls \a take with the waveforms of an item, readRun with those of consecutive
+/// ones
+std::vector<WaveformExample> waveformExamples(
+    std::uint64_t items, const std::vector<std::uint64_t>& asked,
+    const std::function<void(std::uint64_t item, const TakeExample& take)>& readOne,
+    const std::function<void(std::uint64_t first, std::size_t count, const TakeExample& take)>&
+        readRun);
 
 }  // namespace pcl_als
