@@ -18,7 +18,6 @@ calibrate=(calibrate "${strips[@]}" "${flight[@]}" -candidates 10)
 range_of() {  # FILE: the range bias, 0 where it is not estimated
   awk '/"range_bias": *{/ { getline; gsub(/[^-0-9.e]/, "", $2); print $2; exit }' "$1"
 }
-near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; exit !(d < t && d > -t) }'; }
 
 # Fixed strips: the range bias is found (3 cm: the trajectory counts as certain to 2 cm), they are recorded, and apply
 # leaves them as they are.

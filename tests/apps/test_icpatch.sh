@@ -6,14 +6,6 @@
 source "$(dirname -- "$0")/tool_test.sh"
 a=$block/strip1.las b=$block/strip2.las
 
-# number KEY FIELD FILE: the number of a field of a parameter in a result.
-number() {
-  awk -v key="\"$1\":" -v field="\"$2\":" '$1 == key { on = 1 }
-    on && $1 == field { sub(",", "", $2); print $2; exit }' "$3"
-}
-# near A B TOLERANCE
-near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a != "" && b != "" && (a - b) ^ 2 <= t ^ 2) }'; }
-
 expect 0 "centroid" icpatch "$a" "$b" -output r.json -transformed moved.las
 check "the result says converged" grep -q '"status": "converged"' r.json
 for name in XT YT ZT omega phi kappa; do
@@ -37,6 +29,7 @@ for name in XT YT ZT; do
     "$(awk -v v="$(number $name value back.json)" 'BEGIN { print -v }')" 0.001
 done
 expect 0 "" icpatch "$a" "$b" -pair 1:2 -output pair.json
+[[ $(<out.txt) != *"same points"* ]] || failed "files of both strips are taken for copies of themselves"
 check "strips by their ids give the same" near "$(number XT value pair.json)" \
   "$(number XT value r.json)" 0.001
 expect 0 "" icpatch "$a" "$a" -output same.json

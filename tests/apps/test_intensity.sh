@@ -16,7 +16,6 @@ value() {
   printf 'file(READ "%s" t)\nstring(JSON v GET "${t}" %s)\nmessage("${v}")\n' "$1" "$2" >value.cmake
   cmake -P value.cmake 2>&1
 }
-near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; exit !(a != "" && d <= t && d >= -t) }'; }
 
 # Overlap-driven: gains against their geometric mean 0.99958, within 4 of their standard deviations.
 expect 0 'strip_gains' intensity -h

@@ -9,7 +9,6 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/tool_test.sh"
 [[ -d $data/helios && -d $data/delft_ahn3 ]] || { echo "real test data is absent: $data"; exit 77; }
 
 value() { cmake -DJSON="$1" -DNAME="$2" -DKEY="$3" -P "$here/parameter.cmake" 2>&1; }
-within() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; exit !(d <= t && d >= -t) }'; }
 unpack() { for packed in "$data/$1"/*.las.xz; do xz -dc "$packed" >"$(basename -- "$packed" .xz)"; done; }
 
 # The HELIOS block: biases in its ray casting, attitude motion, waveform ranging, trees. With attitude, and with attitude
@@ -22,9 +21,9 @@ while read -r model; do
     -control "$data/helios/control.csv" -model "$model" -output "$model.json"
   while read -r name truth largest; do
     found=$(value "$model.json" "$name" bias) std=$(value "$model.json" "$name" std) checks=$((checks + 2))
-    within "$found" "$truth" "$(awk -v s="$std" 'BEGIN { print 4 * s }')" ||
+    near "$found" "$truth" "$(awk -v s="$std" 'BEGIN { print 4 * s }')" ||
       failed "HELIOS, $model: $name is $found, true $truth, standard deviation $std"
-    within "$std" 0 "$largest" || failed "HELIOS, $model: $name has a standard deviation of $std"
+    near "$std" 0 "$largest" || failed "HELIOS, $model: $name has a standard deviation of $std"
   done <<'TRUTH'
 boresight_pitch 30 4
 boresight_roll 90 1.5
@@ -63,7 +62,7 @@ done
 expect 0 converged calibrate ahn3_cropped_?.las -trajectory "$flight" -select 25 -output chosen.json
 for name in lever_arm_x boresight_pitch boresight_roll boresight_heading scan_angle_scale; do
   checks=$((checks + 1))
-  within "$(value chosen.json $name bias)" "$(value base.json $name bias)" \
+  near "$(value chosen.json $name bias)" "$(value base.json $name bias)" \
     "$(awk -v s="$(value base.json $name std)" 'BEGIN { print 0.3 * s }')" ||
     failed "Delft: of chosen pairs $name is $(value chosen.json $name bias), of all $(value base.json $name bias)"
 done
@@ -82,7 +81,7 @@ for name in lever_arm_x boresight_pitch boresight_roll boresight_heading scan_an
   limit=$(awk -v a="$(value north.json $name std)" -v b="$(value south.json $name std)" \
     'BEGIN { print 4 * sqrt(a * a + b * b) }')
   checks=$((checks + 1)) compared=$((compared + 1))
-  within "$(value north.json $name bias)" "$(value south.json $name bias)" "$limit" ||
+  near "$(value north.json $name bias)" "$(value south.json $name bias)" "$limit" ||
     failed "Delft: $name is $(value north.json $name bias) in the north, $(value south.json $name bias) in the south"
 done
 checks=$((checks + 1))
@@ -93,7 +92,7 @@ while read -r a b offset; do
   checks=$((checks + 1))
   found=$(awk -F, -v a="$a" -v b="$b" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
     $2 == a && $3 == b { print $at["vertical_median_m"] }' quality/pairs.csv)
-  within "${found:-9}" "$offset" 0.003 || failed "Delft: $a is $found above $b, measured $offset"
+  near "${found:-9}" "$offset" 0.003 || failed "Delft: $a is $found above $b, measured $offset"
 done <<'OFFSETS'
 44266 57138 -0.009
 44266 57139 0.021
@@ -101,7 +100,7 @@ done <<'OFFSETS'
 OFFSETS
 closure=$(awk '/"closure_m"/ && !found { gsub(/[^-0-9.e]/, "", $2); print $2; found = 1 }' quality.json)
 checks=$((checks + 1))
-within "${closure:-9}" 0 0.002 || failed "Delft: the triangle of strips closes to $closure m"
+near "${closure:-9}" 0 0.002 || failed "Delft: the triangle of strips closes to $closure m"
 while read -r biases; do
   for tile in 1 2; do
     expect 0 'applying biases' apply ahn3_cropped_$tile.las moved_$tile.las -trajectory "$flight" -bias "$biases" \
@@ -113,7 +112,7 @@ while read -r biases; do
     found=$(awk -v a="$(value moved.json "$name" bias)" -v b="$(value base.json "$name" bias)" 'BEGIN { print a - b }')
     limit=$(awk -v s="$(value moved.json "$name" std)" 'BEGIN { print 3 * s }')
     [[ $name != boresight_roll ]] || limit=5
-    within "$found" "$put_in" "$limit" || failed "Delft, $biases: $name changed by $found, limit $limit"
+    near "$found" "$put_in" "$limit" || failed "Delft, $biases: $name changed by $found, limit $limit"
   done
 done <<'BIASES'
 boresight_roll=60

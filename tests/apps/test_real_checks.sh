@@ -8,7 +8,6 @@ data=${PCL_ALS_TEST_DATA:-$3}
 source "$(dirname -- "${BASH_SOURCE[0]}")/tool_test.sh"
 [[ -d $data/real/bcts ]] || { echo "real test data is absent: $data"; exit 77; }
 
-within() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; exit !(d <= t && d >= -t) }'; }
 # cell FOLDER A B COLUMN: of the pair in FOLDER/pairs.csv
 cell() {
   awk -F, -v a="$2" -v b="$3" -v name="$4" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
@@ -24,8 +23,8 @@ expect 0 '3 of 3 pairs keep QL2' check plain_?.las -output plain.json -report pl
 while read -r a b offset; do
   found=$(cell classes "$a" "$b" vertical_mean_m) plain=$(cell plain "$a" "$b" vertical_mean_m)
   std=$(cell plain "$a" "$b" vertical_mean_std_m) checks=$((checks + 2))
-  within "${found:-9}" "$offset" 0.01 || failed "bcts: $a is $found above $b, measured $offset"
-  within "${found:-9}" "${plain:-8}" "$std" || failed "bcts: $a is $found above $b, without classes $plain"
+  near "${found:-9}" "$offset" 0.01 || failed "bcts: $a is $found above $b, measured $offset"
+  near "${found:-9}" "${plain:-8}" "$std" || failed "bcts: $a is $found above $b, without classes $plain"
 done <<'OFFSETS'
 66 67 -0.040
 66 68 -0.020

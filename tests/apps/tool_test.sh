@@ -65,6 +65,14 @@ absent() {  # FILE…: none of them is there, nor a temporary of theirs
   done
 }
 
+# number KEY FIELD FILE: the number of a field of a parameter in a result.
+number() {
+  awk -v key="\"$1\":" -v field="\"$2\":" '$1 == key { on = 1 }
+    on && $1 == field { sub(",", "", $2); print $2; exit }' "$3"
+}
+# near A B TOLERANCE: two numbers differ by the tolerance at most
+near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a != "" && b != "" && (a - b) ^ 2 <= t ^ 2) }'; }
+
 finish() {
   echo "$checks checks, $failures failed"
   ((failures == 0))

@@ -91,8 +91,9 @@ struct OverlapPoints {
 
  private:
   bool tryBoxes(const AlignmentPair& pair, double reach) {
-    std::vector<PointFileInfo> files = pair.source.files();
-    for (const PointFileInfo& file : pair.target.files()) files.push_back(file);
+    // Those of the survey: two strips may be in the same files.
+    std::vector<PointFileInfo> files;
+    for (const SurveyedFile& file : pair.source.survey->files()) files.push_back(file.sources.info);
     reference = commonReference(files);
     const AlignedBox2d box = commonBox(pair, reach);
     if (box.isEmpty()) return false;
