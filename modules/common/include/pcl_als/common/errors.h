@@ -9,37 +9,37 @@
 
 namespace pcl_als {
 
-/// What a caller may set to go on where an input is refused, or to follow a warning. Messages do
-/// not name options: a tool adds the name of its own.
+/// The setting by which a caller can react to an error or a warning. Messages of the library do not
+/// name options of the tools; each tool adds the name of its own option.
 enum class Hint {
   none,
-  force,             ///< to go on all the same, with a warning
-  force_level,       ///< force, which takes the sensor as level
-  keep_uncovered,    ///< to leave points without trajectory as they are
-  nominal_model,     ///< the model with a level sensor whose heading is the course
-  positions_only,    ///< the model that uses the positions of the trajectory only
-  recover_attitude,  ///< to recover pitch and crab instead of taking the sensor as vertical
-  crs,               ///< to state the CRS of the points
-  accuracy,          ///< to give a file of standard deviations as such
-  axes,              ///< to state the axes of a trajectory's attitude
-  columns,           ///< to name the columns of a trajectory
-  leap_seconds,      ///< to state the leap seconds of a trajectory in UTC
-  geoid,             ///< to give the geoid undulation of a trajectory's heights
-  max_distance,      ///< to compare surfaces that are further apart
-  extent,            ///< another extent of the rasters
-  ground,            ///< other points as ground
-  control,           ///< to give control points
-  control_sigma,     ///< to state the standard deviation of control points
-  flight_sigmas,     ///< to state the standard deviations of the trajectory
-  strips,            ///< to leave strips out, or to use some only
-  channels,          ///< to divide strips by the channel of the scanner
-  user_data,         ///< to divide strips by the user data
-  split,             ///< to divide the points into flight lines
-  system_name,       ///< to name the instrument
+  force,             ///< continue in spite of the objection, with a warning
+  force_level,       ///< as force; the sensor is then assumed to be level
+  keep_uncovered,    ///< keep points without trajectory unchanged
+  nominal_model,     ///< use the model with a level sensor whose heading is the course
+  positions_only,    ///< use only the positions of the trajectory
+  recover_attitude,  ///< recover pitch and crab instead of assuming a vertical sensor
+  crs,               ///< state the CRS of the points
+  accuracy,          ///< use the file as standard deviations of a trajectory
+  axes,              ///< state the axes of a trajectory's attitude
+  columns,           ///< name the columns of a trajectory
+  leap_seconds,      ///< state the leap seconds of a trajectory in UTC
+  geoid,             ///< state the geoid undulation of a trajectory's heights
+  max_distance,      ///< compare surfaces that are further apart
+  extent,            ///< choose another extent of the rasters
+  ground,            ///< choose other points as ground
+  control,           ///< use control points
+  control_sigma,     ///< state the standard deviation of control points
+  flight_sigmas,     ///< state the standard deviations of the trajectory
+  strips,            ///< exclude strips, or choose the strips that are used
+  channels,          ///< divide strips by the channel of the scanner
+  user_data,         ///< divide strips by the user data
+  split,             ///< divide the points into flight lines
+  system_name,       ///< name the instrument
 };
 
-/// Base of every exception of this library. what() is one line that names the file, record or
-/// option and what to do, printable() whatever it quotes.
+/// Base of all exceptions of this library. what() is one line with the file, record or argument,
+/// the fault and the remedy. Text that it quotes from files is made printable (printable()).
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message, Hint hint = Hint::none);
@@ -65,8 +65,8 @@ class InputError : public Error {
 // A numerical outcome (too few pairs, rank deficiency, no convergence) is not an exception: it is a
 // status with a message in the result. Tools write the result and end with exit status 3.
 
-/// What a user should know of a result, in one line without names of options, and what a caller may
-/// set about it.
+/// A warning about a result, in one line without names of options, and the setting that concerns
+/// it.
 struct Warning {
   std::string text;
   Hint hint = Hint::none;

@@ -8,8 +8,8 @@
 
 namespace pcl_als {
 
-/** \brief The double-precision origin that float clouds are relative to, and the CRS it is given
- * in.
+/** \brief The double-precision origin to which the coordinates of a float cloud are relative, and
+ * its CRS.
  *
  * ground = origin + local. A float of a cloud at UTM northing 5 200 000 m has steps of half a
  * metre; relative to an origin at most 4 km away they are under 0.25 mm. Axes are parallel to the
@@ -21,11 +21,12 @@ namespace pcl_als {
  */
 struct LocalFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, ground frame
-  /// WKT or "EPSG:…"; empty when unknown. It may count in another unit: the frame is in metres
-  /// along its axes.
+  /// WKT or "EPSG:…"; empty when unknown. The frame has the axes of this CRS and is in metres, even
+  /// if the unit of the CRS is another one.
   std::string crs;
 
-  /// Distance from its origin (metres, in plan) up to which a float cloud is kept in one part.
+  /// Largest distance of points from the origin in plan, metres; loadStrips() divides strips that
+  /// extend further.
   static constexpr double kMaximumExtent = 4000.0;
 
   /// A frame whose origin is the multiple of 10 m nearest to a ground point.

@@ -36,17 +36,17 @@ struct EIGEN_ALIGN16 PointLidar {
       float x, y, z;  ///< metres from the LocalFrame's origin
     };
   };
-  double gps_time =
-      0.0;  ///< seconds; week seconds or adjusted standard GPS time, as the source file has it
+  /// Seconds of the GPS week or adjusted standard GPS time, as in the source file.
+  double gps_time = 0.0;
   float intensity = 0.0F;  ///< digital number of the source file
-  float scan_angle =
-      0.0F;  ///< degrees as recorded in the file, with the file's sign; never used in estimation
+  /// Degrees, with the sign of the source file; not used in the estimation of parameters.
+  float scan_angle = 0.0F;
   std::uint16_t point_source_id = 0;  ///< flight line (strip) number
   std::uint8_t return_number = 1;     ///< 1 … number_of_returns
   std::uint8_t number_of_returns = 1;
   std::uint8_t classification = 0;  ///< ASPRS class code
   std::uint8_t flags = 0;           ///< bits of PointFlag
-  std::uint8_t user_data = 0;       ///< as the file has it; of some systems the scanner channel
+  std::uint8_t user_data = 0;       ///< as in the file; some systems store the scanner channel here
 
   PointLidar() { x = y = z = 0.0F, data[3] = 1.0F; }
   PointLidar(float px, float py, float pz) { x = px, y = py, z = pz, data[3] = 1.0F; }

@@ -12,10 +12,10 @@
 
 namespace pcl_als {
 
-/// One record of a trajectory, as read. Angles in radians (module trajectory states the rotation),
-/// NaN when unknown.
+/// One record of a trajectory file. Angles are in radians and NaN when unknown; groundFromBody()
+/// defines the rotation.
 struct TrajectorySample {
-  double time = 0.0;                                          ///< seconds
+  double time = 0.0;                                          ///< seconds, as in the file
   Eigen::Vector3d position = Eigen::Vector3d::Zero();         ///< metres, ground frame
   double roll = std::numeric_limits<double>::quiet_NaN();     ///< right wing down positive
   double pitch = std::numeric_limits<double>::quiet_NaN();    ///< nose up positive
@@ -26,12 +26,12 @@ struct TrajectorySample {
   }
 };
 
-/// How a file gives attitudes, as far as this leaves their axes open.
+/// Form of the attitude in a file, which decides whether its axes are known.
 enum class AttitudeForm {
-  heading,  ///< nothing is open: roll right wing down, pitch nose up, heading clockwise from north
-  yaw,      ///< the heading is a yaw, which some write counter-clockwise from east
-  /// The rotation from the body to the local frame: of axes forward, right, down to north, east,
-  /// down, or of axes forward, left, up to east, north, up.
+  heading,  ///< axes known: roll right wing down, pitch nose up, heading clockwise from north
+  yaw,      ///< axes open: some programs count the yaw counter-clockwise from east
+  /// Axes open: the rotation from body to local frame may be from forward, right, down to north,
+  /// east, down, or from forward, left, up to east, north, up.
   quaternion,
 };
 
@@ -58,14 +58,16 @@ struct ControlPoint {
   double sigmaInPlan() const { return sigma_plan > 0.0 ? sigma_plan : sigma; }
 };
 
-/// A square of ground whose points are kept; points up to \a margin outside belong to it too,
-/// so that its TINs are those of the whole.
+/// A square of ground whose points are kept together with those of a margin around it, so that the
+/// TINs inside the square are those of whole strips.
 struct SurveyArea {
   Eigen::Vector2d minimum;  ///< metres, ground frame
   double size = 0.0;        ///< metres, side
   double margin = 0.0;      ///< metres
 
+  /// Whether a point lies in the square.
   bool contains(const Eigen::Vector3d& p) const { return within(p, 0.0); }
+  /// Whether a point lies in the square or its margin.
   bool covers(const Eigen::Vector3d& p) const { return within(p, margin); }
 
  private:
@@ -75,7 +77,7 @@ struct SurveyArea {
   }
 };
 
-/// A place of known reflectance at the laser's wavelength.
+/// A target whose reflectance at the laser's wavelength is known.
 struct ReferenceTarget {
   std::string id;
   double x = 0.0, y = 0.0;   ///< metres, ground frame
@@ -88,43 +90,43 @@ struct GainStep {
   double value = 0.0, gain = 1.0;
 };
 
-/// A place or an area whose class is known: training or check. Metres, ground frame.
+/// A training or check site: a point or an area of known class. Metres, ground frame.
 struct ClassSite {
-  std::string name;                                 ///< of the class
-  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< of a point
-  /// Of an area: closed rings, outer ones and holes alike; inside is what an odd number of them
-  /// surround.
+  std::string name;                                 ///< name of the class
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< position of a point
+  /// Closed rings of an area, outer boundaries and holes alike; a position is inside if an odd
+  /// number of them surrounds it. Empty for a point.
   std::vector<std::vector<Eigen::Vector2d>> rings;
 
   bool isArea() const { return !rings.empty(); }
 };
 
-/// A check point with what it is and what it was classified as.
+/// A check point with its reference class and its class in a classification.
 struct CheckedSite {
-  Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< metres, ground frame
   std::string reference;
-  std::string classified;  ///< empty: the classification gave none
+  std::string classified;  ///< empty: not classified
 };
 
-/// Which areas of a block SurveyMap::selectAreas() chooses.
+/// Settings of the choice of areas of a block (SurveyMap::selectAreas()).
 struct AreaSelection {
-  double area_size = 50.0;  ///< metres
+  double area_size = 50.0;  ///< metres, side of an area
   double margin = 8.0;      ///< metres
-  /// points in the chosen areas and their margins, all strips
+  /// Largest number of points of all strips in the chosen areas and their margins.
   std::size_t point_budget = 4'000'000;
 };
 
 /// Choice of the strips to be used.
 struct StripChoice {
   std::vector<std::string> only;     ///< names of the strips that are used; empty: all
-  std::vector<std::string> without;  ///< names of strips to exclude
-  bool split = false;                ///< cut into flight lines by splitTrack()
-  /// Without split: cut strips that are certainly several flight lines (leadBack()), as they are
-  /// compared with others and not with themselves.
+  std::vector<std::string> without;  ///< names of the strips that are excluded
+  bool split = false;                ///< divide the points into flight lines by splitTrack()
+  /// Without split: divide strips that certainly consist of several flight lines (leadBack()),
+  /// because a strip is compared with other strips and not with itself.
   bool divide_lines = false;
   /// Without split: keep points of GPS time 0 in files that have times.
   bool keep_timeless = false;
-  /// The channels of the scanner in a strip are strips of their own: 3.ch0, 3.ch1 (SurveyReader).
+  /// Treat each scanner channel of a strip as a strip of its own: 3.ch0, 3.ch1 (SurveyReader).
   bool by_channel = false;
 };
 

@@ -23,11 +23,11 @@ enum class SystemParameter {
   lever_arm_x,        ///< dX, metres, body frame (x right)
   lever_arm_y,        ///< dY, metres, body frame (y forward)
   lever_arm_z,        ///< dZ, metres, body frame (z up)
-  boresight_pitch,    ///< domega, radians inside, arc-seconds at interfaces
-  boresight_roll,     ///< dphi
-  boresight_heading,  ///< dkappa
+  boresight_pitch,    ///< domega, radians in the library, arc-seconds in files and options
+  boresight_roll,     ///< dphi, as boresight_pitch
+  boresight_heading,  ///< dkappa, as boresight_pitch
   range_bias,         ///< dr, metres
-  scan_angle_scale,   ///< dS, unitless; the biases are of S around its nominal 1
+  scan_angle_scale,   ///< dS, unitless: bias of the scale factor S, whose nominal value is 1
 };
 
 inline constexpr int kSystemParameterCount = 8;
@@ -46,7 +46,7 @@ struct SystemParameterInfo {
   double internal_per_unit;
 };
 
-/// All eight, in order.
+/// The eight parameters, in the order of SystemParameter.
 const std::array<SystemParameterInfo, kSystemParameterCount>& systemParameters();
 
 inline int indexOf(SystemParameter p) {
@@ -56,24 +56,24 @@ inline const SystemParameterInfo& infoOf(SystemParameter p) {
   return systemParameters()[indexOf(p)];
 }
 
-/// Biases of this size and more are refused, internal units: no mounted scanner has 100 m of lever
-/// arm or range bias, 0.1 rad of boresight or a tenth of scale.
+/// Size from which on a bias is refused as implausible, internal units: 100 m for lever arm and
+/// range bias, 0.1 rad for boresight angles, 0.1 for the scale.
 double largestBias(SystemParameter p);
 
-/// "1e+06 m is not between -100 and 100 m": why a bias in internal units is refused; empty when it
-/// is not.
+/// The reason for which a bias in internal units is refused ("1e+06 m is not between -100 and 100
+/// m"); empty if it is accepted.
 std::string refusedBias(SystemParameter p, double bias);
 
 /// The parameter of that name; empty when there is none.
 std::optional<SystemParameter> systemParameterNamed(std::string_view name);
 
-/// Unit normals of the planes in which a scanner deflects its pulses, in the body frame
-/// (right-forward-up), pointing forward: of a scanner with several planes (looks ahead and back,
-/// crossing lines). Empty: one plane, across the body.
+/// Unit normals of the planes in which a scanner with several scan planes (fore and aft, crossing
+/// lines) deflects its pulses, in the body frame (right-forward-up), pointing forward. Empty: one
+/// plane, across the body.
 using ScanPlanes = std::vector<Eigen::Vector3d>;
 
-/// The normal of the plane that contains a pulse. Planes that intersect in the pulse give the same
-/// scan angle.
+/// The normal of the plane that is nearest to a pulse, a vector of any length in the body frame.
+/// For a pulse in the intersection of planes, all of them give the same scan angle.
 inline Eigen::Vector3d scanPlaneOf(const ScanPlanes& planes, const Eigen::Vector3d& in_body) {
   Eigen::Vector3d nearest = Eigen::Vector3d::UnitY();
   double least = -1.0;

@@ -13,10 +13,10 @@ namespace pcl_als {
 
 /** \brief Writes a strip as binary PCD with every field of PointLidar.
  *
- * The frame's origin is the file's VIEWPOINT (ground = VIEWPOINT + point), strip id and CRS are
- * comment lines; every value survives to the last bit. PCL's own readers and tools take the file
- * as any PCD; through PCL's float VIEWPOINT the origin stays exact where it is a multiple of 10 m
- * (see LocalFrame). AtomicFile; InputError names the file.
+ * The frame's origin is the file's VIEWPOINT (ground = VIEWPOINT + point); strip id and CRS are
+ * comment lines. Every value is kept bit for bit. PCL's own readers and tools read the file as any
+ * PCD; an origin that is a multiple of 10 m remains exact in PCL's float VIEWPOINT (see
+ * LocalFrame). The file appears only when it is complete. InputError names the file.
  */
 void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip);
 
@@ -25,35 +25,37 @@ struct PcdColumn {
   std::string name;
   std::vector<float> values;
 };
-/// The same with further fields behind the others. UsageError where a column is not as long as the
-/// cloud.
+/// Writes a strip with further fields after those of PointLidar. UsageError if a column does not
+/// have one value per point.
 void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip,
              const std::vector<PcdColumn>& columns);
 
-/** \brief Reads any PCD with float or double x, y, z; fields are found by name without regard to
- * case and underscores, those that are missing keep PointLidar's defaults, points without finite
- * coordinates are excluded.
+/** \brief Reads any PCD with float or double x, y, z.
  *
- * The id is that of savePcd; else the point source id where all points have the same and it is not
- * 0; else the file's stem. The frame's origin is the VIEWPOINT of files of this library; in others
- * that is the pose of the sensor, which is not added, unless it cannot be one (the module's README
- * has the rule). Coordinates stored as double get a frame around their centre. Times that a filter
- * averaged byte by byte are zero (PcdFindings::time_fault).
+ * Fields are found by name without regard to case and underscores; missing fields keep the defaults
+ * of PointLidar. Points without finite coordinates are excluded. InputError names the file.
+ *
+ * The strip id is that of savePcd(), else the point source id if all points have the same one
+ * other than 0, else the stem of the file name. In files of this library the VIEWPOINT is the
+ * origin of the frame. In other files it is the pose of the sensor and is not added, unless it
+ * cannot be a pose (the rule is on the page of module io). Coordinates stored as double get a frame
+ * around their centre. Times that a filter averaged byte by byte are set to zero
+ * (PcdFindings::time_fault).
  */
 Strip<PointLidar> loadPcd(const std::filesystem::path& path);
-/// What a cloud does not show of the file that it was read from.
+/// Facts about a PCD file that the cloud read from it does not contain.
 struct PcdFindings {
   std::vector<std::string> remarks;  ///< PointReader::remarks()
   std::string time_fault;            ///< PointFileInfo::time_fault
   bool has_intensity = true, has_flags = true;
-  /// Channels of the scanner of all points, in the field that was asked for; empty where none was,
-  /// and for a scanner channel in a file without flags.
+  /// Scanner channel of each point from the requested field; empty if no field was requested, or if
+  /// the flags were requested and the file has none.
   std::vector<std::uint8_t> channels;
-  /// This field, where PointLidar has no such field: for copies of the file.
+  /// The requested field if PointLidar does not have it, for copies of the file.
   std::vector<PcdColumn> channel_column;
 };
-/// The same, for jobs that tell it. \a channel_field: PointWindow::channel_field; empty: channels
-/// are not needed. InputError where the file has no field of that name.
+/// Reads a PCD as above and sets \a findings. \a channel_field: PointWindow::channel_field; empty:
+/// channels are not needed. InputError if the file has no field of that name.
 Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field,
                           PcdFindings& findings);
 

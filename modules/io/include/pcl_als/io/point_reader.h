@@ -16,11 +16,11 @@
 
 namespace pcl_als {
 
-/// UsageError where a job is given no point file at all.
+/// UsageError if \a count, the number of point files given to a job, is zero.
 void requirePointFiles(std::size_t count);
 
-/// InputError for a file that can be read but of which no corrected copy can be written, .ply and
-/// .xyz: it must be converted first.
+/// InputError for .ply and .xyz files, of which no corrected copies can be written; they have to be
+/// converted first.
 void requireCopyable(const std::filesystem::path& file);
 
 /** \brief Reads the points of a point file (kPointExtensions) chunk by chunk, in file order, in
@@ -29,33 +29,40 @@ void requireCopyable(const std::filesystem::path& file);
  * Coordinates are brought to metres from the unit that the file states (PointFileInfo::units); the
  * coordinates of PCD, PLY and XYZ files are metres.
  *
- * Everything that is wrong with the file is an InputError that names file, what is wrong and what
- * to do.
+ * Every fault of the file is an InputError with the file, the fault and the remedy.
+ * \code
+ * const auto reader = pcl_als::PointReader::open("strip1.laz");
+ * pcl_als::PointChunk chunk;
+ * while (reader->read(chunk))
+ *   for (std::size_t i = 0; i < chunk.size(); ++i) use(chunk.x[i], chunk.y[i], chunk.z[i]);
+ * \endcode
  */
 class PointReader {
  public:
-  static constexpr std::size_t kChunk = std::size_t{1} << 17;
+  static constexpr std::size_t kChunk = std::size_t{1} << 17;  ///< largest number of points
 
   virtual ~PointReader() = default;
-  /// What is done with coordinates that are no map coordinates: degrees or geocentric ones.
+  /// Treatment of coordinates that are not map coordinates (degrees, geocentric coordinates).
   enum class OtherCoordinates { refuse, as_stored };
-  /// Opens by extension.
+  /// Opens a file; its extension determines the format.
   static std::unique_ptr<PointReader> open(const std::filesystem::path& path,
                                            OtherCoordinates other = OtherCoordinates::refuse);
-  /// Opens a part of a file: info() describes the part, as far as that is known before its points
-  /// are read.
+  /// Opens a part of a file. info() describes the part as far as it is known before the points are
+  /// read.
   static std::unique_ptr<PointReader> open(const std::filesystem::path& path,
                                            const PointWindow& window,
                                            OtherCoordinates other = OtherCoordinates::refuse);
 
   virtual const PointFileInfo& info() const = 0;
-  /// What of a damaged file cannot be read (PointWindow::keep_readable), as one line with the name
-  /// of the file; empty: nothing.
+  /// The part of a damaged file that cannot be read (PointWindow::keep_readable), in one line with
+  /// the name of the file; empty if nothing is lost.
   virtual std::string damage() const { return {}; }
-  /// What is not used of the file, and what is assumed of it, one line each without its name.
+  /// Contents of the file that are not used, and assumptions about it, one line each without the
+  /// name of the file.
   virtual std::vector<std::string> remarks() const { return {}; }
-  /// Of the box of all points that read() gave: that the header of the file states another one;
-  /// empty: it does not. Points in a part of the file must only be within the box of the header.
+  /// A remark if the header of the file states another box than that of the points which read()
+  /// gave (\a points); otherwise empty. The points of a part of a file only have to lie within the
+  /// box of the header.
   virtual std::string boxRemark(const Eigen::AlignedBox3d& /*points*/) const { return {}; }
   /// The next at most kChunk points; false (and an empty chunk) at the end.
   virtual bool read(PointChunk& chunk) = 0;

@@ -13,8 +13,8 @@
 
 namespace pcl_als {
 
-/// readTrajectoryFile() of trajectory_io.h with the two things that most callers state: the CRS of
-/// the points and the unit of map coordinates.
+/// readTrajectoryFile() of trajectory_io.h with the two settings that most callers need: the CRS of
+/// the points (needed for geographic coordinates) and the unit of map coordinates.
 TrajectoryFile readTrajectoryFile(const std::filesystem::path& path, const std::string& crs = {},
                                   const LengthUnit& unit = {});
 
@@ -23,23 +23,24 @@ std::vector<TrajectorySample> readTrajectory(const std::filesystem::path& path,
                                              const std::string& crs = {},
                                              const LengthUnit& unit = {});
 
-/// Reads control points: CSV id,x,y,z[,sigma], columns found by name, all four in \a unit.
-/// InputError names file, line and column.
+/// Reads control points: CSV id,x,y,z[,sigma], lengths in \a unit, columns found by name. Further
+/// columns describe planar patches (nx,ny,nz,extent) and targets (diameter,sigma_plan), see
+/// ControlPoint. InputError names file, line and column.
 std::vector<ControlPoint> readControl(const std::filesystem::path& path,
                                       const LengthUnit& unit = {});
 
-/// Reads places of known reflectance: CSV x,y,reflectance[,id][,sigma], columns found by name; a
-/// target without an id is called by its number; places in \a unit. InputError names file, line and
-/// column.
+/// Reads targets of known reflectance: CSV x,y,reflectance[,id][,sigma], coordinates in \a unit,
+/// columns found by name. A target without an id is named by its number. InputError names file,
+/// line and column.
 std::vector<ReferenceTarget> readReferenceTargets(const std::filesystem::path& path,
                                                   const LengthUnit& unit = {});
 
-/// Reads the gain of a receiver by the value of its gain control: CSV value,gain (gain > 0), sorted
-/// by value. InputError names file, line and column, or a value that comes twice.
+/// Reads the gain of a receiver as a function of the AGC value: CSV value,gain (gain > 0). The
+/// result is sorted by value. InputError names file, line and column, or a repeated value.
 std::vector<GainStep> readGainSteps(const std::filesystem::path& path);
 
-/// Writes / reads calibration.json (its schema is in the module's README). Angles are arc-seconds
-/// in the file.
+/// Writes and reads calibration.json, in which angles are in arc-seconds. The format is described
+/// on the page of module io; share/schema has its JSON Schema. InputError names file and field.
 void writeCalibration(const std::filesystem::path& path, const CalibrationResult& result);
 CalibrationResult readCalibration(const std::filesystem::path& path);
 

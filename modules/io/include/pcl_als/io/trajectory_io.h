@@ -18,7 +18,7 @@
 
 namespace pcl_als {
 
-/// Standard deviations of a trajectory at a time; NaN where a file does not state one.
+/// Standard deviations of a trajectory at one time; NaN for those that a file does not state.
 struct TrajectoryAccuracy {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -27,57 +27,58 @@ struct TrajectoryAccuracy {
   Eigen::Vector3d angles = Eigen::Vector3d::Constant(kUnknown);    ///< roll, pitch, heading, rad
 };
 
-/// What the coordinates of a trajectory file are.
+/// Kind of the coordinates of a trajectory file.
 enum class TrajectoryCoordinates {
   map,         ///< easting, northing, height
   geographic,  ///< latitude, longitude, height
   geocentric,  ///< X, Y, Z from the centre of the Earth
 };
 
-/// Unit of angles whose column states none.
+/// Unit of the angles of a text file. stated: that of the column, degrees if it states none.
 enum class AngleUnit { stated, degrees, radians, gon };
 
 /// Meaning of roll, pitch and heading.
 enum class AttitudeAxes {
-  by_course,  ///< ned; of a yaw or a quaternion those under which the heading follows the course
+  by_course,  ///< ned; for a yaw or quaternion the axes with which the heading follows the course
   ned,        ///< roll right wing down, pitch nose up, heading clockwise from north
   enu,        ///< body forward-left-up: pitch nose down, yaw counter-clockwise from east
 };
 
-/// The north that headings count from.
+/// The north to which headings refer.
 enum class NorthReference {
-  by_coordinates,  ///< grid north for map coordinates, else true north
+  by_coordinates,  ///< grid north with map coordinates, else true north
   true_north,
   grid_north,
 };
 
-/// What a caller knows of trajectory files beyond what they state.
+/// Information about trajectory files that the files themselves do not state.
 struct TrajectoryReading {
-  std::string crs;      ///< of the points: the frame of the result
-  std::string own_crs;  ///< of the files; default: WGS 84 (ITRF), map coordinates those of \a crs
-  LengthUnit unit;      ///< of map coordinates; the result is in metres
-  /// Names of the columns of text files in their order, as in a header; "skip" for others. Empty:
-  /// by the header of the file.
+  std::string crs;  ///< CRS of the points, which is the frame of the result
+  /// CRS of the files; default: \a crs for map coordinates, WGS 84 (ITRF) for others.
+  std::string own_crs;
+  LengthUnit unit;  ///< of map coordinates in the files; the result is in metres
+  /// Names of the columns of text files in their order, as in a header line; "skip" for columns
+  /// that are not used. Empty: the header line of the file.
   std::vector<std::string> columns;
-  AngleUnit angles = AngleUnit::stated;  ///< degrees where nothing is stated
+  AngleUnit angles = AngleUnit::stated;
   AttitudeAxes axes = AttitudeAxes::by_course;
   NorthReference north = NorthReference::by_coordinates;
-  /// Times are UTC: seconds that are added. Without it a column of UTC is used only where a GPS
-  /// week beside it gives the leap seconds.
+  /// Leap seconds, which are added to times in UTC. Without them, a column of UTC is used only if
+  /// the GPS week of another column gives the leap seconds.
   std::optional<double> leap_seconds;
-  /// Geoid undulation, subtracted from the heights of the files: metres, or the path of a grid that
-  /// PROJ reads. Empty: none.
+  /// Geoid undulation that is subtracted from the heights of the files: a number of metres, or the
+  /// path of a grid that PROJ reads. Empty: none.
   std::string geoid;
 };
 
-/// TrajectoryFile::format of a trajectory that was reconstructed from points: its standard
-/// deviations are not those of the trajectory that the points were computed with.
+/// TrajectoryFile::format of a trajectory that was reconstructed from points. Its standard
+/// deviations are not those of the trajectory from which the points were computed.
 inline constexpr const char* kReconstructedFormat = "reconstructed from points";
 
-/// Where the samples of a file stand in it.
+/// Line or record numbers of the samples of a file, for messages.
 struct SamplePlaces {
-  bool lines = false;                  ///< of a text file; otherwise records
-  std::vector<std::uint32_t> numbers;  ///< of the samples, from one
+  bool lines = false;                  ///< lines of a text file; otherwise records
+  std::vector<std::uint32_t> numbers;  ///< by sample, counted from one
 
   /// "line 12", "record 12"
   std::string name(std::size_t sample) const {
@@ -85,81 +86,84 @@ struct SamplePlaces {
   }
 };
 
-/// A trajectory as a file holds it, in the frame of the points.
+/// The contents of a trajectory file in the frame of the points.
 struct TrajectoryFile {
   std::vector<TrajectorySample> samples;  ///< in the order of the file
-  SamplePlaces places;                    ///< of the samples; empty where files were joined
-  /// What the file and the caller leave open: the samples hold the attitude as one of north, east,
-  /// down until the course shows otherwise (settleAxes() of module trajectory).
+  SamplePlaces places;                    ///< of the samples; empty if files were joined
+  /// Whether the axes of the attitude are still open. The samples then hold it as if it referred to
+  /// north, east, down, until settleAxes() of module trajectory determines the axes by the course.
   AttitudeForm attitude = AttitudeForm::heading;
-  /// What the headings of the samples were turned by on their way to grid north, radians, where the
-  /// attitude leaves something open; empty: nothing.
+  /// By sample: the rotation from the north of the file to grid north that its heading contains,
+  /// radians. Empty if the axes are known or no heading was rotated.
   std::vector<double> turns;
-  std::string axes;  ///< remark on the axes that the course showed; empty where nothing was open
-  /// "columns: time from GpsTime, heading from Azimuth"; empty where all have their plain names.
+  std::string axes;  ///< remark on the axes that the course showed; empty if they were known
+  /// "columns: time from GpsTime, heading from Azimuth"; empty if all have their plain names.
   std::string columns;
   std::string format;                        ///< "SBET", "text"
   std::string frame;                         ///< "latitude, longitude and ellipsoidal height, …"
-  std::vector<TrajectoryAccuracy> accuracy;  ///< of the samples; empty where none is stated
+  std::vector<TrajectoryAccuracy> accuracy;  ///< by sample; empty if none is stated
   std::vector<std::string> remarks;          ///< conversions and assumptions, one line each
 };
 
 /** \brief Reads a trajectory: text with a header line, Applanix SBET (.out, .sbet), TerraScan
- * (.trj), RIEGL (.pof, with the .poq beside it) or Leica (.sol).
+ * (.trj), RIEGL (.pof, with the .poq of the same name) or Leica (.sol).
  *
- * Text: columns are found by the names in use (the module's README lists them) in any case, below
- * any number of lines that are no header; separator , ; tab or blanks; a line of units below the
- * header is read, and so are units in the names ("roll_rad"); seconds, metres and degrees
- * otherwise. Latitude and longitude may be degrees, minutes and seconds. Coordinates on the map, on
- * the ellipsoid or geocentric; the latter two are projected to the CRS of the points with PROJ, and
- * headings from true north turned by the meridian convergence.
+ * The columns of a text file are found by their names, which the page of module io lists, without
+ * regard to case; lines before the header are skipped. They are separated by commas, semicolons,
+ * tabs or blanks. Units are read from a line below the header or from the names ("roll_rad");
+ * otherwise they are seconds, metres and degrees. Latitude and longitude may be degrees, minutes
+ * and seconds. Geographic and geocentric coordinates are projected to the CRS of the points with
+ * PROJ, and headings from true north are reduced to grid north by the meridian convergence.
  *
- * InputError names file, line (or record) and column, and has the hint where something may be
- * stated. Geographic coordinates without TrajectoryReading::crs are a UsageError.
+ * InputError names file, line (or record) and column; its hint() states what the caller may add.
+ * UsageError for geographic coordinates without TrajectoryReading::crs.
  */
 TrajectoryFile readTrajectoryFile(const std::filesystem::path& path,
                                   const TrajectoryReading& reading);
 
-/** \brief Reads trajectories of one survey and joins them in order of time.
+/** \brief Reads the trajectory files of one block and joins them in order of time.
  *
- * Each path is a file or a folder, of which all files that may be a trajectory are read in order of
- * their names. Files may be of different formats. Seconds of the week and absolute times are
- * brought to one scale. A sample whose time and place (within 5 mm and 2e-5 rad) another file holds
- * is excluded; where files differ at times that both cover, InputError names both, the time and the
- * distance. The time between files remains a gap of the trajectory.
+ * Each path is a file or a folder, whose trajectory files (isTrajectoryFile()) are read in order of
+ * their names. The formats of the files may differ. Seconds of the week and absolute times are
+ * brought to one time scale. Samples at times that another file covers are excluded if they lie on
+ * its path (within 2 cm and 1e-4 rad, plus a tolerance for manoeuvres between its samples);
+ * otherwise InputError names both files, the time and the distance. The time between files remains
+ * a gap of the trajectory.
  */
 TrajectoryFile readTrajectoryFiles(const std::vector<std::filesystem::path>& paths,
                                    const TrajectoryReading& reading);
 
-/// Joins trajectories as readTrajectoryFiles() does. \a paths: of the files, for messages.
+/// Joins trajectories as readTrajectoryFiles() does. \a paths: those of the files, for messages.
 TrajectoryFile joinTrajectoryFiles(std::vector<TrajectoryFile> files,
                                    const std::vector<std::filesystem::path>& paths);
 
-/// What a trajectory file states, without projection.
+/// Summary of the contents of a trajectory file, without projection.
 struct TrajectoryFacts {
   std::string format, frame, columns;
   std::size_t samples = 0;
   TimeRange times;
   std::string time_kind;     ///< "seconds of the GPS week"
   double median_step = 0.0;  ///< seconds
-  bool attitude = false;     ///< of every sample
-  /// As in TrajectoryFile, of \a local.
+  bool attitude = false;     ///< whether every sample has attitude
+  /// Form of the attitude of \a local, as TrajectoryFile::attitude.
   AttitudeForm attitude_form = AttitudeForm::heading;
   std::string axes;                          ///< remark on the axes of the attitude
-  std::vector<TrajectoryAccuracy> accuracy;  ///< empty where none is stated
-  /// In order of time, positions east, north and up of the first sample, metres; of geographic
-  /// coordinates on a sphere, of geocentric ones zero.
+  std::vector<TrajectoryAccuracy> accuracy;  ///< empty if none is stated
+  /// The samples in order of time. Positions are east, north and up from the first sample, metres:
+  /// on a sphere for geographic coordinates, zero for geocentric ones.
   std::vector<TrajectorySample> local;
   SamplePlaces places;  ///< of \a local
 };
+/// Reads the summary of a file. InputError as readTrajectoryFile(); no CRS is needed.
 TrajectoryFacts inspectTrajectory(const std::filesystem::path& path,
                                   const TrajectoryReading& reading);
 
-/// Whether a file in a folder is a trajectory by its name.
+/// Whether a file counts as a trajectory by its name, as for files in a folder.
 bool isTrajectoryFile(const std::filesystem::path& path);
 
-/// The trajectory files that paths mean: themselves, or those of a folder. InputError for a folder
-/// without any.
+/// The trajectory files that paths stand for: files themselves, and the trajectory files of
+/// folders. UsageError for no path and for a file that is given twice, InputError for a folder
+/// without a trajectory file.
 std::vector<std::filesystem::path> trajectoryPaths(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace pcl_als

@@ -33,28 +33,35 @@ class SharedItems;
 class StripAssignment;
 struct SurveyedFile;
 
-/** \brief The points of a survey as strips, from files or clouds, which can be read repeatedly.
+/** \brief Presents the points of a block, from files or clouds, as strips that can be read
+ * repeatedly.
  *
- * All jobs on strips read their points through this class; a "file" is any SurveyInput, such as a
+ * All jobs on strips read their points through this class. A "file" is any SurveyInput, such as a
  * cloud from makeCloudInput().
  *
- * Strips are those of StripAssignment, divided by the channel of the scanner where
- * StripChoice::by_channel asks for it; points that it excludes are counted and not passed on.
+ * Strips are those of StripAssignment, on request divided by the channel of the scanner
+ * (StripChoice::by_channel). Excluded points are counted and not passed on.
  *
  * Points are columns of a PointChunk: positions in metres in the ground frame (the CRS of
- * reference()), times in seconds as the file counts them, with the conversion to the clock of the
- * trajectory beside them (Run::time), intensities in digital numbers, angles in degrees.
+ * reference()), times in seconds as in the file, intensities as digital numbers, angles in degrees.
+ * Run::time converts the times to those of the trajectory.
  *
- * Order: the points of a strip come in the order of the files and of the points in them. Files that
- * share a strip are read one after the other, others in parallel, so that the order does not depend
- * on the number of threads; with one thread all files are read in their order.
+ * The points of a strip come in the order of the files and of the points in them. Files that
+ * contain points of the same strip are read one after the other, other files in parallel, so that
+ * this order does not depend on the number of threads. With one thread all files are read in order.
  *
- * Memory: a chunk (131,072 points, 8 MB) for each thread, and SwathTrack for each point source id
- * of a file.
+ * Memory: a chunk (131,072 points, 8 MB) for each thread, and a SwathTrack for each point source id
+ * of a file. A file that changes or cannot be read is an InputError.
+ * \code
+ * pcl_als::SurveyReader survey({"strip1.las", "strip2.las"});
+ * survey.read([](const pcl_als::SurveyReader::Run& run) {  // by several threads
+ *   for (std::size_t row = run.from; row < run.to; ++row) use(run.strip, run.position(row));
+ * });
+ * \endcode
  */
 class SurveyReader {
  public:
-  /// Points [from, to) of a chunk, all of one strip, with every field.
+  /// Points [from, to) of a chunk, all of one strip, with all fields.
   struct Run {
     int strip;          ///< index among strips(); -1: excluded (runAt() only)
     std::size_t label;  ///< index among StripAssignment::labels()
@@ -63,75 +70,76 @@ class SurveyReader {
     std::size_t from, to;
     const TimeAlignment& time;  ///< to the time system of the trajectory
 
+    /// Metres, ground frame.
     Eigen::Vector3d position(std::size_t row) const {
       return {chunk.x[row], chunk.y[row], chunk.z[row]};
     }
     LidarReturn point(std::size_t row) const { return chunk.point(row, time(chunk.gps_time[row])); }
-    /// All of them, in place of what \a points holds.
+    /// Replaces the contents of \a points by the points of the run.
     void points(std::vector<LidarReturn>& points) const;
   };
   using Visitor = std::function<void(const Run& run)>;
   using Sink = std::function<void(int strip, const LidarReturn* points, std::size_t count)>;
-  /// Passes runs on as points, for jobs that keep these in areas.
+  /// A visitor that converts runs to points and passes them to \a sink.
   static Visitor asReturns(Sink sink);
 
   /// Information about the flight, for choose().
   struct Flight {
     const Trajectory* trajectory = nullptr;
-    std::optional<int> gps_week;
-    /// Whether points without trajectory are excluded; otherwise they are read.
+    std::optional<int> gps_week;  ///< of times that are seconds of the week; default: from the data
+    /// Whether points that the trajectory does not cover are excluded.
     bool needed = true;
   };
 
-  /// Reads all files once (ids, times, extents). InputError for a file that cannot be read,
-  /// or that commonReference() refuses.
-  /// \a threads: 0: all cores; results do not depend on it.
-  /// \a window: the part of the files that is read; InputError where it has no points.
-  /// \a processes: null, or those that share the readings (collective): each reads its share of
-  /// the files and receives what the others found; see Reading::Share.
+  /// Reads all files once (ids, times, extents). InputError for files that cannot be read or whose
+  /// CRS or units do not agree (commonReference()).
+  /// \param threads 0: all cores; results do not depend on it
+  /// \param window the part of the files that is read; InputError if it contains no points
+  /// \param processes null, or the processes that share the readings (collective): each reads its
+  /// share of the files and receives the results of the others, see Reading::Share
   explicit SurveyReader(const std::vector<std::string>& paths, int threads = 0,
                         const PointWindow& window = {}, Communicator* processes = nullptr);
-  /// The same from other sources than files.
+  /// A reader of other sources than files.
   static SurveyReader ofInputs(std::vector<SurveyInput> inputs, int threads = 0);
-  /// Files that may be in different coordinate reference systems: reference() is empty.
+  /// A reader of files that may be in different coordinate reference systems; reference() is empty.
   static SurveyReader ofFiles(const std::vector<std::filesystem::path>& paths, int threads = 0,
                               const PointWindow& window = {});
-  /// Each file is a strip of its own with all of its points; nothing is read before read(), and
-  /// there is no arrangement(). \a files: as their headers state, or measured.
+  /// A reader in which each file is a strip with all of its points. Nothing is read before read(),
+  /// and arrangement() must not be called. \a files: from the headers of the files, or measured.
   static SurveyReader ofWholeFiles(const std::vector<PointFileInfo>& files, int threads = 0,
                                    const PointWindow& window = {});
-  /// Files that a job has surveyed and whose times it has aligned in a way of its own: the points
-  /// of \a choice, without choose().
+  /// A reader of the points of \a choice in files that a job has already indexed (surveyFile()) and
+  /// whose times it has aligned; choose() is not called.
   static SurveyReader ofSurveyed(std::vector<SurveyedFile> files, const StripChoice& choice,
                                  const FlownTimes& flown, int threads = 0);
   SurveyReader(SurveyReader&& other) noexcept;
   SurveyReader& operator=(SurveyReader&& other) noexcept;
   ~SurveyReader();
 
-  /// Chooses the points that are read, and their strips; without it all points are read, with
-  /// strips named by StripNaming. Returns how times were reconciled with the trajectory, one line
-  /// each. UsageError for an unknown strip, InputError where no point remains.
+  /// Chooses the strips and points that are read. If it is not called, all points are read, and
+  /// strips are named by StripNaming. Returns one line for each way in which times were reconciled
+  /// with the trajectory. UsageError for an unknown strip, InputError if no point remains.
   std::vector<std::string> choose(const StripChoice& choice, const Flight& flight);
 
   const std::vector<std::string>& strips() const { return strips_; }
-  /// Whether two strips were measured in one pass, as of scanners with numbers of their own; not so
-  /// where strips are divided by channel, because these are to be compared.
+  /// Whether two strips were measured in one pass, such as those of two scanners of one aircraft.
+  /// False if strips are divided by channel, because channels are to be compared.
   bool areOfOnePass(int a, int b) const;
-  /// The field that divides strips by the channel of the scanner (PointWindow::channel_field);
-  /// empty where they are not divided.
+  /// The field that divides strips by scanner channel (PointWindow::channel_field); empty if they
+  /// are not divided.
   std::string channelField() const;
-  std::uint64_t pointCount() const;
+  std::uint64_t pointCount() const;  ///< of all files, including excluded points
   /// Approximate number of points of each strip.
   const std::vector<std::uint64_t>& pointsByStrip() const { return points_; }
-  /// Common CRS of the files, and conversions or assumptions about their units.
+  /// Common CRS of the files, with conversions of their units and assumptions about them.
   const PointReference& reference() const { return reference_; }
   /// Box of all points in plan, metres; empty when there are none.
   Eigen::AlignedBox2d extent() const;
-  /// South-west corner of all points, metres; the origin where there are none.
+  /// South-west corner of all points, metres; the origin if there are none.
   Eigen::Vector2d corner() const;
-  /// North-east corner, likewise.
+  /// North-east corner of all points, metres; the origin if there are none.
   Eigen::Vector2d farCorner() const;
-  /// Finest coordinate step of the files, metres.
+  /// Finest step of the plan coordinates of the files, limited to 0.1 to 10 mm; metres.
   double resolution() const;
 
   /// Times of the points of the strips in use, by file and point source id, on the clock of the
@@ -139,24 +147,25 @@ class SurveyReader {
   std::vector<TimeRange> observedTimes() const;
 
   const std::vector<SurveyedFile>& files() const { return *files_; }
+  /// The assignment of the points to strips.
   const StripAssignment& arrangement() const { return *arrangement_; }
 
-  /// Called during read(), by one thread at a time, with the share of the points that were read,
-  /// 0 … 1; an exception of it ends the reading. Empty: none.
+  /// Sets a function that read() calls, by one thread at a time, with the share of the points that
+  /// were read, 0 … 1. An exception that it throws ends the reading. Empty: none.
   void setProgress(std::function<void(double share)> progress) { progress_ = std::move(progress); }
 
-  /// Which points a reading gives.
+  /// The points that are read.
   struct Reading {
     /// own: each process gets all points of its own strips and none of the others (collective).
     /// all: this process gets all points of all strips, whatever the others do.
-    /// first: the first process gets all points of all strips, the others none (collective);
-    /// only the first one learns which points were excluded.
+    /// first: the first process gets all points of all strips, the others none (collective); only
+    /// the first process receives the excluded points.
     enum class Share { own, all, first };
     Share share = Share::own;
     std::vector<std::size_t> files;  ///< indices of the files that are read; empty: all
     int strip = -1;                  ///< the only strip that is read; -1: all
-    std::string extra_field;         ///< values of PointChunk::extra; empty: none
-    std::optional<int> threads;      ///< in place of those of the reader
+    std::string extra_field;         ///< extra-bytes field for PointChunk::extra; empty: none
+    std::optional<int> threads;      ///< replaces the number of threads of the reader
 
     static Reading by(Share share) {
       Reading reading;
@@ -164,32 +173,32 @@ class SurveyReader {
       return reading;
     }
   };
-  /** \brief Calls \a visit with all points, in runs of one strip; from several threads for
-   * different strips. Returns the points that were excluded.
+  /** \brief Calls \a visit with all points, in runs of one strip, and returns the excluded points.
    *
-   * May be called by several threads at once, where no progress is set.
+   * Several threads call \a visit at the same time, but never for the same strip. read() itself may
+   * be called by several threads at once if no progress function is set.
    */
   std::vector<ExcludedPoints> read(const Visitor& visit, const Reading& reading) const;
   std::vector<ExcludedPoints> read(const Visitor& visit) const { return read(visit, Reading()); }
 
-  /// The points of each strip, and those that are excluded.
+  /// Numbers and extents of the points of each strip, and the excluded points.
   struct Contents {
     std::vector<std::uint64_t> points;       ///< by strip
-    std::vector<Eigen::AlignedBox3d> boxes;  ///< of these, metres
+    std::vector<Eigen::AlignedBox3d> boxes;  ///< by strip, metres, ground frame
     std::vector<ExcludedPoints> excluded;
 
     std::uint64_t pointCount() const;
     Eigen::AlignedBox3d box() const;
   };
-  /// Reads all points.
+  /// Reads all points and measures them.
   Contents measure() const;
 
-  /// The run that begins with a row of a chunk of a file, also of points that are excluded, for
-  /// jobs that rewrite files; strips are not divided by channel. Thread-safe.
+  /// The run of points of one strip, or of excluded points, that begins at row \a from of a chunk
+  /// of a file, for jobs that rewrite files. Strips are not divided by channel. Thread-safe.
   Run runAt(std::size_t file, const PointChunk& chunk, std::size_t from) const;
 
   Communicator* processes() const { return processes_; }
-  /// The strips by the process that reads them.
+  /// The division of the strips among the processes.
   SharedItems stripShares() const;
 
  private:
@@ -240,7 +249,7 @@ class SurveyReader {
   std::function<void(double share)> progress_;
 };
 
-/// Reports the readings of a survey to the phases of a job as long as it exists.
+/// Reports the progress of the readings of a survey to a job as long as this object exists.
 class ReadingProgress {
  public:
   ReadingProgress(SurveyReader& survey, ProgressReport& progress) : survey_(survey) {
@@ -254,11 +263,11 @@ class ReadingProgress {
   SurveyReader& survey_;
 };
 
-/// Receives the points that a job reads, for further maps and statistics; both may be empty.
+/// Receives the points that a job reads, for maps and statistics. Both functions may be empty.
 struct SurveyObserver {
   /// Called when the strips have been chosen.
   std::function<void(const SurveyReader& survey)> begin;
-  /// All points of one reading; from several threads for different strips.
+  /// Called with all points of one reading, by several threads for different strips.
   SurveyReader::Sink points;
 };
 
