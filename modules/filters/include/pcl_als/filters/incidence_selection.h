@@ -20,10 +20,10 @@ namespace pcl_als {
  * the surface.
  *
  * The pulse starts at the trajectory's position at the time of the point (RadiometricEvaluator); 0
- * degrees is perpendicular incidence. Normals are given, of either sign, or are those of local
- * planes (LocalSurfaces) of the last returns of the cloud, which must be one strip. A point has no
- * incidence angle, and is not selected, where it has no surface (leaves, wires, edges), where it is
- * not a last return, or where the trajectory does not cover its time.
+ * degrees is perpendicular incidence. The normals are those of setInputNormals(), of either sign,
+ * or of local planes (LocalSurfaces) of the last returns of the cloud, which must be one strip. A
+ * point has no incidence angle and is not selected if it has no surface (leaves, wires, edges), if
+ * it is not a last return or not below the sensor, or if the trajectory does not cover its time.
  *
  * The point type needs x, y, z (float) and gps_time (double); return_number and number_of_returns
  * are used where the type has them. For other types than PointLidar include
@@ -54,7 +54,8 @@ class IncidenceSelection : public PointSelection<PointT> {
   }
   std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
 
-  /// Degrees, 0 <= minimum <= maximum <= 90, both included; UsageError; default 0 and 90.
+  /// Limits of the angles of the selected points (included), degrees; default 0 and 90. UsageError
+  /// unless 0 <= minimum <= maximum <= 90.
   void setAngleLimits(double minimum, double maximum);
   double getMinimumAngle() const { return minimum_; }
   double getMaximumAngle() const { return maximum_; }
@@ -63,6 +64,7 @@ class IncidenceSelection : public PointSelection<PointT> {
   void setInputNormals(NormalsConstPtr normals) { normals_ = std::move(normals); }
   NormalsConstPtr getInputNormals() const { return normals_; }
 
+  /// Settings of the local planes, if no normals are set.
   void setSurfaceSettings(const LocalSurfaceSettings& settings) { surfaces_ = settings; }
   const LocalSurfaceSettings& getSurfaceSettings() const { return surfaces_; }
 
@@ -70,15 +72,15 @@ class IncidenceSelection : public PointSelection<PointT> {
   void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
   const TimeAlignment& getTimeAlignment() const { return alignment_; }
 
-  /// Incidence angles of the finite points of the last filter() in order, degrees; NaN: none.
+  /// Incidence angles of the finite points of the last filter() in their order, degrees; NaN: none.
   const std::vector<float>& getAngles() const { return angles_; }
   /// Number of points of the last filter() whose time the trajectory does not cover.
   std::size_t getUncovered() const { return uncovered_; }
 
  protected:
-  /// UsageError without a trajectory, or for normals that are not one per point; InputError where
-  /// the trajectory covers none of the points, or most of them cannot have been measured from it (a
-  /// frame that was not set, or another flight).
+  /// UsageError without a trajectory, or unless there is one normal per point; InputError if the
+  /// trajectory covers none of the points, or if most of them cannot have been measured from it
+  /// (setLocalFrame() was not called, or the trajectory is of another flight).
   std::vector<bool> select(const pcl::Indices& points) override;
 
  private:

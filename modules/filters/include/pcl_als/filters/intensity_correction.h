@@ -25,17 +25,18 @@ namespace pcl_als {
  * extinctionOf() for a.
  *
  * The cloud is one strip, relative to its LocalFrame, with the coordinates of the calibrated
- * geometry. Normals are given, or are those of local planes (LocalSurfaces) of its single and last
- * returns. Leaves, wires and edges have no plane, and returns before the last have only a part of
- * the energy of their pulse: both are corrected for range and atmosphere only. getCounts() counts
- * them.
+ * geometry. The normals are those of setInputNormals(), or of local planes (LocalSurfaces) of the
+ * single and last returns. Leaves, wires and edges have no plane, and returns before the last have
+ * only a part of the energy of their pulse: both are corrected for range and atmosphere only.
+ * getCounts() counts them.
  *
  * Fields needed: x, y, z, intensity (float), gps_time (double), return_number and
  * number_of_returns; for other types than PointLidar include impl/intensity_correction.hpp. All
  * other fields are kept bit for bit; the input is not changed. Points that are not finite or not
- * below the sensor, and points outside given indices, stay unchanged; a point without a trajectory
- * is an InputError unless setKeepUncovered(true). A cloud most of whose points cannot have been
- * measured from the trajectory is an InputError (a frame that was not set, or another flight).
+ * below the sensor, and points outside given indices, stay unchanged. InputError for points that
+ * the trajectory does not cover, unless setKeepUncovered(true), and for a cloud most of whose
+ * points cannot have been measured from the trajectory (setLocalFrame() was not called, or the
+ * trajectory is of another flight).
  * \code
  * pcl_als::IntensityCorrection<pcl_als::PointLidar> correction;
  * correction.setTrajectory(trajectory);
@@ -71,7 +72,8 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   void setModel(const RadiometricModel& model) { model_ = model; }
   const RadiometricModel& getModel() const { return model_; }
 
-  /// Known factor of the strip's intensities (receiver, pulse energy), > 0; default 1.
+  /// Known factor g of the strip's intensities (receiver, pulse energy), > 0; default 1. UsageError
+  /// (in filter()) for another value.
   void setGain(double gain) { gain_ = gain; }
   double getGain() const { return gain_; }
 
@@ -79,6 +81,7 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   void setInputNormals(NormalsConstPtr normals) { normals_ = std::move(normals); }
   NormalsConstPtr getInputNormals() const { return normals_; }
 
+  /// Settings of the local planes, if no normals are set.
   void setSurfaceSettings(const LocalSurfaceSettings& settings) { surfaces_ = settings; }
   const LocalSurfaceSettings& getSurfaceSettings() const { return surfaces_; }
 

@@ -14,11 +14,11 @@ namespace pcl_als {
 
 /** \brief Selects the points of a strip that lie where another strip has points.
  *
- * The ground is divided into square cells, counted from the origin of the ground frame; a point is
- * selected where one of the other strips has at least setMinimumPoints() points in its cell. Each
+ * The ground is divided into square cells, counted from the origin of the ground frame. A point is
+ * selected if one of the other strips has at least setMinimumPoints() points in its cell. Each
  * cloud is relative to its own LocalFrame. A cell should be some point spacings wide: with smaller
- * cells gaps between points do not count as overlap, with larger ones the border of the overlap is
- * uncertain by the size of a cell.
+ * cells, gaps between points do not count as overlap, and the border of the overlap is uncertain by
+ * the size of a cell.
  *
  * The point type needs x, y, z (float); for other types than PointLidar include
  * impl/overlap_selection.hpp. Time and memory are linear in the number of points and of cells.
@@ -49,17 +49,17 @@ class OverlapSelection : public PointSelection<PointT> {
   void setOtherStrips(const std::vector<Strip<PointT>>& strips);
   void clearOtherStrips() { others_.clear(); }
 
-  /// Metres, > 0; UsageError; default 2.
+  /// Side of a cell, metres; default 2. UsageError unless it is above 0.
   void setCellSize(double metres);
   double getCellSize() const { return cell_; }
 
-  /// Least number of points of one other strip in a cell; 1 or more, UsageError; default 1.
+  /// Smallest number of points of one other strip in a cell; default 1. UsageError for 0.
   void setMinimumPoints(std::size_t points);
   std::size_t getMinimumPoints() const { return minimum_points_; }
 
  protected:
-  /// UsageError where no other strip is set; InputError where the frame of one strip was not set,
-  /// by the distance of the strips.
+  /// UsageError if no other strip is set; InputError if the distance of the strips shows that the
+  /// frame of one of them was not set.
   std::vector<bool> select(const pcl::Indices& points) override;
 
  private:

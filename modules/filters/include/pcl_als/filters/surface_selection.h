@@ -41,15 +41,16 @@ class SurfaceSelection : public PointSelection<PointT> {
     this->filter_name_ = "SurfaceSelection";
   }
 
+  /// The criterion of suitable surfaces; default: that of the calibration.
   void setCriterion(const SurfaceCriterion& criterion) { criterion_ = criterion; }
   const SurfaceCriterion& getCriterion() const { return criterion_; }
 
-  /// Size of the squares and the automatic limit of roughness; UsageError (in filter()) for values
-  /// out of range. Its threads are those of setNumberOfThreads().
+  /// Size of the squares that are triangulated, and the automatic limit of roughness; UsageError
+  /// (in filter()) for values out of range. The number of threads is that of setNumberOfThreads().
   void setSettings(const SuitablePointsSettings& settings) { settings_ = settings; }
   const SuitablePointsSettings& getSettings() const { return settings_; }
 
-  /// Whether points of several returns may be selected where they are the last; default false.
+  /// Whether last returns of pulses with several returns may be selected; default false.
   void setMultipleReturns(bool use) { multiple_returns_ = use; }
   bool getMultipleReturns() const { return multiple_returns_; }
 

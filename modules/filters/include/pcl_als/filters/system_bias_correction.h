@@ -28,19 +28,19 @@ class PointChannels;
  * time of each point; with setInvert(true) the exact inverse, which applies the biases.
  *
  * Points are relative to the LocalFrame, the trajectory is in the ground frame (east, north, up,
- * metres). A calibration includes its model and attitude (SystemCorrection); biases alone (assumed
+ * metres). A calibration includes its model and attitude (SystemCorrection). Biases alone (assumed
  * - true; m, rad, 1) are used with the attitude of the trajectory. The point type needs x, y, z
  * (float) and gps_time (double); for other types than PointLidar include
- * impl/system_bias_correction.hpp. A calibration with several systems or fixed strips needs
- * point_source_id (or setStripId), and flags (bits 6 and 7), user_data or another registered field
- * where it divides strips by the channel of the scanner in that field
- * (CalibrationResult::channel_field); setChannels() has channels that no field of the type has.
+ * impl/system_bias_correction.hpp. For a calibration with several systems or fixed strips, it also
+ * needs point_source_id (or setStripId()). If that calibration divides strips by the channel of the
+ * scanner, it needs the field with the channel (CalibrationResult::channel_field): flags (bits 6
+ * and 7), user_data, another registered field, or setChannels().
  *
  * All other fields are kept bit for bit; the input is not changed. Points that are not finite, and
- * points outside given indices, stay unchanged. A point without a trajectory is an InputError with
- * counts and times unless setKeepUncovered(true), which keeps it unchanged; getCoverage() counts
- * them. A cloud most of whose points cannot have been measured from the trajectory is an InputError
- * unless setCheckTrajectory(false).
+ * points outside given indices, stay unchanged. Points that the trajectory does not cover are an
+ * InputError with counts and times, unless setKeepUncovered(true) keeps them unchanged;
+ * getCoverage() counts them. A cloud most of whose points cannot have been measured from the
+ * trajectory is an InputError unless setCheckTrajectory(false).
  * \code
  * const pcl_als::SystemCorrection biases(pcl_als::readCalibration("calibration.json"),
  *                                        pcl_als::readTrajectory("trajectory.csv"));
@@ -60,18 +60,18 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
 
   SystemBiasCorrection() { this->filter_name_ = "SystemBiasCorrection"; }
 
-  /// The flight as delivered, with attitude where the calibration was estimated with it.
+  /// The trajectory as delivered, with attitude if the calibration was estimated with it.
   void setTrajectory(std::shared_ptr<const Trajectory> trajectory) {
     trajectory_ = std::move(trajectory);
   }
   std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
 
-  /// Frame of the cloud's coordinates, Strip::frame; default: the origin of the ground frame, from
-  /// which points then are thousands of kilometres away from the trajectory (an InputError).
+  /// Frame of the cloud's coordinates, Strip::frame; default: the origin of the ground frame. If
+  /// the frame is not set, the points usually lie far from the trajectory, which is an InputError.
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 
-  /// Biases, assumed - true: m, rad, 1, instead of a calibration. UsageError (in filter()) for
+  /// Biases (assumed - true; m, rad, 1) instead of a calibration. UsageError (in filter()) for
   /// implausible values.
   void setBiases(const SystemVector& biases) {
     biases_ = biases;
@@ -79,32 +79,32 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   }
   const SystemVector& getBiases() const { return biases_; }
   /// A calibration with its model and attitude. UsageError unless its verdict is usable; InputError
-  /// in filter() where data that the correction needs are missing.
+  /// (in filter()) if data that the correction needs are missing.
   void setCalibration(const CalibrationResult& result) {
     SystemCorrection::requireUsable(result);
     biases_ = result.biases();
     calibration_ = result;
   }
 
-  /// Id of the strip, for points without a point source id, where the calibration has several
-  /// systems or fixed strips; default none.
+  /// Id of the strip of points without a point source id, for a calibration with several systems or
+  /// fixed strips; default none.
   void setStripId(const std::string& id) { strip_id_ = id; }
   const std::string& getStripId() const { return strip_id_; }
 
-  /// Channels of the scanner of all points of the input cloud, in place of a field of the point
-  /// type; default (empty): from the point type. UsageError in filter() for another number.
+  /// Scanner channel of each point of the input cloud, in place of a field of the point type;
+  /// default (empty): the field. UsageError (in filter()) unless there is one channel per point.
   void setChannels(std::vector<std::uint8_t> channels) { channels_ = std::move(channels); }
   const std::vector<std::uint8_t>& getChannels() const { return channels_; }
 
-  /// A correction that replaces the trajectory, calibration, attitude, inversion and time alignment
-  /// that are set.
+  /// A correction that is used instead of the trajectory, calibration, attitude, inversion and time
+  /// alignment of the other functions.
   void setCorrection(const SystemCorrection& correction) { correction_ = correction; }
 
   /// Also removes the trajectory errors that the calibration estimated; default false.
   void setStripCorrections(bool use) { strip_corrections_ = use; }
   bool getStripCorrections() const { return strip_corrections_; }
 
-  /// Pitch and crab at times of which the calibration has none (AttitudeRecovery); default none.
+  /// Pitch and crab for times at which the calibration has none (AttitudeRecovery); default none.
   void setFallbackAttitude(const RecoveredAttitude& attitude) { fallback_attitude_ = attitude; }
   const RecoveredAttitude& getFallbackAttitude() const { return fallback_attitude_; }
 
@@ -126,8 +126,9 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void setKeepUncovered(bool keep) { keep_uncovered_ = keep; }
   bool getKeepUncovered() const { return keep_uncovered_; }
 
-  /// Refuses a cloud most of whose points lie above the trajectory, or beyond any scan angle of it
-  /// (TrajectoryPlausibility): a frame that was not set, or another flight. Default true.
+  /// Refuses a cloud most of whose points lie above the trajectory or beyond any possible scan
+  /// angle (TrajectoryPlausibility), because its frame was not set or the trajectory is of another
+  /// flight. Default true.
   void setCheckTrajectory(bool check) { check_trajectory_ = check; }
   bool getCheckTrajectory() const { return check_trajectory_; }
 
@@ -135,7 +136,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void setNumberOfThreads(int threads) { threads_ = requiredThreads(threads); }
   int getNumberOfThreads() const { return threads_; }
 
-  /// Numbers of points that the last filter() corrected or excluded, by reason.
+  /// Numbers of points that the last filter() corrected or did not correct, by reason.
   const CoverageCount& getCoverage() const { return coverage_; }
 
  protected:

@@ -16,20 +16,20 @@
 
 namespace pcl_als {
 
-/** \brief Gives a cloud all echoes of its waveforms: returns of the scanner keep their points, and
- * echoes that it did not return become new ones.
+/** \brief Decomposes the waveforms of a cloud into echoes and adds points for the echoes that the
+ * scanner did not record as returns.
  *
- * The same decomposition and the same pairs of returns and echoes (PulseEchoes) as those of
- * decomposeWaveforms(), which writes files. Points of one pulse must follow each other, as in files
- * of scanners. New points follow the points of their pulse: copies of the nearest return, at the
- * place of the echo, with class 1, the flag kSynthetic, and an intensity in proportion to the
- * amplitude. Returns are numbered by their times if points were added and all returns of the pulse
- * are in the cloud.
+ * The decomposition and the pairs of returns and echoes (PulseEchoes) are those of
+ * decomposeWaveforms(), which writes files; the method is described on the page of module waveform.
+ * Points of one pulse must follow each other, as in files of scanners. New points follow the points
+ * of their pulse. They are copies of the nearest return at the position of the echo, with class 1,
+ * the flag kSynthetic, and an intensity in proportion to the amplitude. Returns are numbered by
+ * their times if points were added and all returns of the pulse are in the cloud.
  *
- * Fields needed: x, y, z in metres. return_number with number_of_returns, intensity,
- * classification and flags are set in new points of types that have them. For other types than
- * PointLidar include impl/waveform_decomposition.hpp. Points outside given indices stay unchanged
- * and get no echo. The output is not organised. The input is not changed.
+ * Fields needed: x, y, z in metres. In new points return_number with number_of_returns, intensity,
+ * classification and flags are set if the type has them. For other types than PointLidar include
+ * impl/waveform_decomposition.hpp. Points outside given indices are not moved and get no
+ * attributes. The output is not organised. The input is not changed.
  * \code
  * pcl_als::WaveformDecomposition<pcl_als::PointLidar> decomposition;
  * decomposition.setWaveforms(std::make_shared<pcl_als::LasWaveforms>("strip1.las"));
@@ -48,19 +48,19 @@ class WaveformDecomposition : public pcl::Filter<PointT> {
 
   WaveformDecomposition() { this->filter_name_ = "WaveformDecomposition"; }
 
-  /// Waveforms of the points of the input cloud, in their order. Needed.
+  /// The waveforms of the points of the input cloud, in the order of the points; required.
   void setWaveforms(ProviderConstPtr waveforms) { waveforms_ = std::move(waveforms); }
   ProviderConstPtr getWaveforms() const { return waveforms_; }
 
-  /// Response and what is accepted as an echo; UsageError (in filter()) for values out of range.
+  /// System response and criteria for echoes; UsageError (in filter()) for values out of range.
   void setSettings(const EchoSettings& settings) { settings_ = settings; }
   const EchoSettings& getSettings() const { return settings_; }
 
-  /// Whether echoes that no return belongs to become points; default true.
+  /// Whether points are added for echoes without a return; default true.
   void setNewEchoes(bool add) { new_echoes_ = add; }
   bool getNewEchoes() const { return new_echoes_; }
 
-  /// Whether returns are moved along their pulse to their echoes; default false.
+  /// Whether returns are moved along their pulse to the positions of their echoes; default false.
   void setMoveReturns(bool move) { move_returns_ = move; }
   bool getMoveReturns() const { return move_returns_; }
 
@@ -68,16 +68,16 @@ class WaveformDecomposition : public pcl::Filter<PointT> {
   void setNumberOfThreads(int threads) { threads_ = requiredThreads(threads); }
   int getNumberOfThreads() const { return threads_; }
 
-  /// Attributes of the points of the last output, one for each.
+  /// Attributes of each point of the last output (amplitude, width, standard deviations).
   const std::vector<EchoAttributes>& getEchoes() const { return echoes_; }
-  /// The point of the input that each point of the last output was made from.
+  /// For each point of the last output the index of the input point from which it was made.
   const pcl::Indices& getSourceIndices() const { return sources_; }
   /// Full width at half maximum of the response that was used, nanoseconds, by descriptor index.
   const std::map<unsigned, double>& getPulseWidths() const { return pulse_widths_; }
 
  protected:
-  /// UsageError for missing waveforms, or another number of them than points; InputError for
-  /// waveforms that are damaged, and if the width of the response cannot be estimated.
+  /// UsageError if waveforms are missing or are not one per point; InputError for damaged
+  /// waveforms, and if the width of the response cannot be estimated.
   void applyFilter(PointCloud& output) override;
 
  private:

@@ -10,13 +10,13 @@ namespace pcl_als {
 
 /** \brief Requirements of the USGS 3DEP Lidar Base Specification for a quality level.
  *
- * Table 2 (relative vertical accuracy of swath data) and Table 4 (absolute vertical accuracy); the
- * figures have been the same from version 1.2 (2014) to 2025 rev. A. The largest difference is that
- * of versions 1.2 and 1.3 (twice the RMSDz); later editions have it as the break between yellow and
- * red of the swath separation images.
+ * Table 2 (relative vertical accuracy of swath data) and Table 4 (absolute vertical accuracy). The
+ * figures have been the same from version 1.2 (2014) to 2025 rev. A. The limit of the largest
+ * difference is that of versions 1.2 and 1.3 (twice the RMSDz); in later editions it is the break
+ * between yellow and red in swath separation images.
  */
 struct QualityLevelLimits {
-  int level;                     ///< QL
+  int level;                     ///< quality level, 0 (best) to 3
   double swath_overlap_rmsdz;    ///< metres, RMS of height differences between swaths
   double swath_overlap_maximum;  ///< metres, largest difference
   double smooth_surface_repeat;  ///< metres, RMS within one swath
@@ -25,6 +25,7 @@ struct QualityLevelLimits {
 };
 
 inline constexpr int kQualityLevels = 4;
+/// The limits of all levels, best level first.
 const std::array<QualityLevelLimits, kQualityLevels>& qualityLevels();
 
 inline constexpr const char* kSwathSpecification =
@@ -39,22 +40,24 @@ inline constexpr const char* kSwathGuidelines =
     "ASPRS Guidelines on Geometric Inter-Swath Accuracy and Quality of Lidar Data, Version 1.0 "
     "(2018)";
 
-/// The best level whose limit of differences between swaths (RMSDz, metres) is satisfied, if any.
+/// The best quality level whose limit of differences between swaths an RMSDz (metres) satisfies, if
+/// any.
 std::optional<int> swathQualityLevel(double rmsdz);
 
-/// The best level whose absolute limit is satisfied by an RMSEz (metres), if any.
+/// The best quality level whose absolute limit an RMSEz (metres) satisfies, if any.
 std::optional<int> absoluteQualityLevel(double rmsez);
 
-/// ASPRS figures of a test against check points, metres.
+/// Accuracy figures of the ASPRS standards from a test against check points, metres.
 struct VerticalAccuracy {
-  /// Edition 2: sqrt(fit^2 + survey^2), fit: RMSE against the points, survey: RMSE of their heights
-  double rmse_v = 0.0;
+  double rmse_v = 0.0;  ///< Edition 2: sqrt(fit^2 + survey^2)
+  /// RMSE of the heights against the check points, and RMSE of the heights of the check points.
   double fit = 0.0, survey = 0.0;
-  double class_cm = 0.0;       ///< the accuracy class of rmse_v: the next whole centimetre
-  double nva_95 = 0.0;         ///< Edition 1: 1.96 fit, at 95 % if errors are normal
+  double class_cm = 0.0;       ///< accuracy class of rmse_v: the next whole centimetre
+  double nva_95 = 0.0;         ///< Edition 1: 1.96 fit, 95 % if errors are normally distributed
   bool enough_points = false;  ///< Edition 2 requires kFewestCheckPoints
 };
 inline constexpr std::size_t kFewestCheckPoints = 30;
+/// The figures for a number of check points; \a fit and \a survey in metres.
 VerticalAccuracy verticalAccuracy(double fit, double survey, std::size_t points);
 
 }  // namespace pcl_als

@@ -4,9 +4,14 @@
 
 namespace pcl_als {
 
-/// The atmosphere between sensor and ground as reported by a weather station.
+/// The atmosphere between sensor and ground, as reported by a weather station.
+/// \code
+/// pcl_als::Atmosphere weather;
+/// weather.visibility_km = 48.3;
+/// const double per_km = pcl_als::extinctionOf(weather).total();
+/// \endcode
 struct Atmosphere {
-  double visibility_km = 23.0;      ///< meteorological range, (0, 500]
+  double visibility_km = 23.0;      ///< meteorological range, [0.01, 500]
   double temperature_c = 15.0;      ///< [-60, 60]
   double pressure_kpa = 101.325;    ///< [20, 120]
   double relative_humidity = 50.0;  ///< percent, [0, 100]
@@ -32,13 +37,15 @@ struct Extinction {
   double total() const { return aerosol + rayleigh + water_vapour + mixed_gases; }
 };
 
-/// UsageError as Atmosphere::check().
+/// The extinction for an atmosphere. UsageError as Atmosphere::check().
 Extinction extinctionOf(const Atmosphere& atmosphere);
 
-/// 1/km from dB/km (of power, one way): ln(10) / 10.
+/// Extinction coefficient (1/km) from an attenuation of the power in dB/km, one way: the value
+/// times ln(10) / 10. UsageError unless it is in [0, 100].
 double extinctionFromDecibel(double decibel_per_km);
 
-/// exp(-2 a r): transmission over \a range metres and back.
+/// Transmission exp(-2 a r) from the sensor to the ground and back; extinction a in 1/km, range r
+/// in metres.
 double twoWayTransmission(double extinction_per_km, double range);
 
 }  // namespace pcl_als

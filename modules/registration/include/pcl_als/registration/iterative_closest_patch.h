@@ -14,20 +14,21 @@ namespace pcl_als {
 /** \brief Registers one airborne strip to another: ICPatch (Habib et al. 2011, section 2.3).
  *
  * Points of the source are compared with TIN patches of the target and vice versa, with modified
- * weights, for a rigid motion and optionally a scale, robustly and from coarse to fine; see
- * registerPatches(). For surfaces with one height at a plan position, z up, metres.
+ * weights. A rigid motion and optionally a scale are estimated robustly and from coarse to fine;
+ * see registerPatches(). The clouds need one height at a plan position, z up, in metres.
  *
  * Settings of pcl::Registration that apply: setMaxCorrespondenceDistance (largest distance of the
  * surfaces at the initial motion, metres; default 15), setMaximumIterations (of the fine stage;
  * default 50), setTransformationEpsilon (square of the largest movement of a point in the last
  * iteration, m^2; default 4e-10), setIndices (points of the source). Correspondence estimation,
- * rejectors, RANSAC settings and search trees are not used. hasConverged() is false where the
- * overlap is too small, there are too few smooth surfaces in both clouds, or the iteration does not
+ * rejectors, RANSAC settings and search trees are not used. hasConverged() is false if the overlap
+ * is too small, if both clouds have too few smooth surfaces in common, or if the iteration does not
  * converge. getResult() gives the reason, and the determined parameters of the motion with their
- * covariance.
+ * covariance. UsageError (in align()) for settings out of range.
  *
- * getFinalTransformation() maps local source to local target coordinates. For strips with different
- * LocalFrames set both frames: the motion in the result is then in ground coordinates.
+ * getFinalTransformation() maps local source to local target coordinates, as does the guess of
+ * align(). For strips with different LocalFrames set both frames: the motion in the result is then
+ * in ground coordinates, and the identity as guess (default) means no motion in the ground frame.
  *
  * \code
  * pcl_als::IterativeClosestPatch<pcl_als::PointLidar, pcl_als::PointLidar> icpatch;
@@ -50,25 +51,25 @@ class IterativeClosestPatch : public pcl::Registration<PointSource, PointTarget,
 
   IterativeClosestPatch();
 
-  /// Origins of the clouds; default: both zero. The aligned cloud is in the target's frame.
+  /// Origins of the clouds; default: zero for both. The aligned cloud is in the target's frame.
   void setFrames(const LocalFrame& source, const LocalFrame& target);
-  /// Estimates a scale about the centroid, too. Default false.
+  /// Also estimates a scale about the centroid of the overlap; default false.
   void setEstimateScale(bool estimate) { settings_.estimate_scale = estimate; }
   bool getEstimateScale() const { return settings_.estimate_scale; }
-  /// Approximate number of triangulated points of each cloud; >= 100. Default 700 000.
+  /// Approximate number of triangulated points of each cloud, at least 100; default 700 000.
   void setMaximumPoints(std::size_t points) { settings_.points = points; }
   std::size_t getMaximumPoints() const { return settings_.points; }
-  /// Approximate number of candidate points in each direction; >= 100. Default 180 000.
+  /// Approximate number of candidate points in each direction, at least 100; default 180 000.
   void setMaximumPairs(std::size_t pairs) { settings_.pairs = pairs; }
   std::size_t getMaximumPairs() const { return settings_.pairs; }
-  /// Metres at the radius of the overlap: parameters with a larger standard deviation are reported
-  /// as not determined. Default 0.1.
+  /// Limit of the standard deviation of determined parameters, metres (rotations times the radius
+  /// of the overlap); parameters above it are reported as not determined. Default 0.1.
   void setDeterminedStandardDeviation(double metres) { settings_.determined_std = metres; }
   double getDeterminedStandardDeviation() const { return settings_.determined_std; }
-  /// Step of plan coordinates, metres. Default 0.001.
+  /// Step of the plan coordinates, metres; default 0.001. See Tin.
   void setResolution(double metres) { settings_.resolution = metres; }
   double getResolution() const { return settings_.resolution; }
-  /// Covariance of one point's coordinates in each cloud up to a common factor (3 x 3). Default
+  /// Covariance of the coordinates of a point of each cloud (3 x 3) up to a common factor; default:
   /// identity.
   void setPointNoise(const Eigen::Matrix3d& source, const Eigen::Matrix3d& target);
   /// 0: all cores; the result does not depend on it. Default 0.

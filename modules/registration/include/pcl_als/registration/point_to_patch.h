@@ -10,7 +10,7 @@
 
 namespace pcl_als {
 
-/// The parts of a registration with point-to-patch primitives; their settings may be changed.
+/// The components that usePointToPatch() sets in a registration; their settings may be changed.
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 struct PointToPatch {
   pcl::shared_ptr<CorrespondenceEstimationPointToPatch<PointSource, PointTarget, Scalar>>
@@ -24,10 +24,11 @@ struct PointToPatch {
  *
  * Sets the correspondence estimation, adds the rejector of patches that are not suitable for
  * measurement and sets the transformation estimation, so that all three use the same patches.
- * Other rejectors stay. Iterations, thresholds and clouds are set as in any pcl::Registration; the
- * 10 iterations that pcl::IterativeClosestPoint makes by default are too few from some decimetres
- * on. IterativeClosestPatch is a registration of its own, from coarse to fine, robust, in both
- * directions and with a covariance; this function is for programs that have a registration of PCL.
+ * Other rejectors remain. Iterations, thresholds and clouds are set as in any pcl::Registration;
+ * the 10 iterations that pcl::IterativeClosestPoint makes by default are too few for displacements
+ * of some decimetres. This function is for programs that use a registration of PCL;
+ * IterativeClosestPatch is a complete registration, from coarse to fine, robust, in both directions
+ * and with a covariance.
  *
  * \code
  * pcl::IterativeClosestPoint<pcl_als::PointLidar, pcl_als::PointLidar> icp;

@@ -52,38 +52,40 @@ class Tin {
   };
 
   Tin() = default;
-  /// \param points x y z, metres, plan extent at most 2^24 resolutions (else UsageError);
-  /// non-finite: InputError
+  /// \param points x, y, z in metres. UsageError if their extent in plan exceeds 2^24 resolutions,
+  /// InputError if a coordinate is not finite
   explicit Tin(std::vector<Eigen::Vector3d> points, double resolution = 0.001);
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  std::size_t mergedPoints() const { return merged_; }  ///< points that fell on an earlier one
+  std::size_t mergedPoints() const { return merged_; }  ///< points at the plan position of others
   double resolution() const { return resolution_; }     ///< metres
 
-  /// Moves the points. The topology is kept where it remains a triangulation, which holds for
-  /// corrections far below the point spacing; where more than one in a thousand of the triangles
-  /// inside the hull would be inverted, the points are triangulated again (at the cost of the
-  /// constructor), and triangles are numbered anew. Same count (else UsageError). locate() and the
-  /// search follow; certain() refers to the original positions and is to be asked before.
+  /// Replaces the positions of the points. UsageError unless the number of points is the same. The
+  /// topology is kept if it remains a triangulation, as for corrections far below the point
+  /// spacing. If more than one in a thousand of the triangles inside the hull would be inverted,
+  /// the points are triangulated again (at the cost of the constructor), and the triangles are
+  /// renumbered. locate() and walk() use the new positions; certain() refers to the original
+  /// positions and has to be called before.
   void movePoints(std::vector<Eigen::Vector3d> points);
 
-  /// The triangle whose plan projection holds (x, y), edges included; of several (on an edge or
-  /// vertex) the lowest index; kNone outside the hull. Exact on the points as given. Thread-safe;
-  /// \a hint is where the walk starts (kNone, or a triangle far away: from a grid of starting
-  /// triangles).
+  /// The triangle whose plan projection contains (x, y), edges included; kNone outside the hull. On
+  /// an edge or vertex it is the triangle with the lowest index. The result is exact for the points
+  /// as given. Thread-safe. \a hint is the triangle at which the search starts; if it is kNone or
+  /// far away, a grid of starting triangles is used.
   std::int32_t locate(double x, double y, std::int32_t hint = kNone) const;
 
-  /// As locate(), and outside the hull the hull triangle where the walk ended.
+  /// As locate(), but outside the hull gives the hull triangle at which the search ended.
   Location walk(double x, double y, std::int32_t hint = kNone) const;
 
-  /** \brief Whether the triangle is one of the TIN of all points, when this TIN was made of a part.
+  /** \brief Whether a triangle of this TIN, which was made of a part of the points, is also a
+   * triangle of the TIN of all points.
    *
-   * \param covered a plan box, metres, of which this TIN has all the points that the whole has
-   * (borders included; of points that coincide in plan, the same first one).
+   * \param covered a plan box, metres. This TIN must have all points of the whole in the box, its
+   * borders included; of points that coincide in plan, the first one must be the same.
    *
-   * True if the circle around the triangle, two resolutions wider, lies in the box. The converse
-   * holds too: every triangle of the whole TIN for which this holds is in this one.
+   * True if the circumcircle of the triangle, enlarged by two resolutions, lies in the box.
+   * Conversely, every triangle of the whole TIN for which this holds is in this TIN.
    */
   bool certain(std::int32_t triangle, const Eigen::AlignedBox2d& covered) const;
 
