@@ -24,59 +24,69 @@
 
 namespace pcl_als {
 
-/// A reference surface for calibrateSurvey(), from a file.
+/// A reference surface for calibrateSurvey(). openReference() of module processing opens files.
 struct ReferenceSource {
   using Sink = std::function<void(const LidarReturn* points, std::size_t count)>;
 
   ReferenceSurface surface;
-  PointFileInfo info;  ///< path, CRS and units, which must be those of the survey
-  /// Passes on all points inside a box in plan (metres, ground frame), part by part.
+  PointFileInfo info;  ///< path, CRS and units; the CRS must be that of the block
+  /// Passes all points inside a box in plan (metres, ground frame) to \a sink, part by part.
   std::function<void(const Eigen::AlignedBox2d& box, const Sink& sink)> read;
 };
 
-/** \brief What calibrateSurvey() and SystemCalibration estimate, and from what. The defaults use
- * all strips, and estimate what these determine.
+/** \brief Options of calibrateSurvey() and SystemCalibration.
+ *
+ * By default all strips are used, and all parameters that they determine are estimated.
  */
 struct CalibrationOptions {
   CalibrationSettings settings;
-  std::string system_name;  ///< of the instrument; empty: as the point files state it
-  StripChoice strips;       ///< strips that are used; default all
+  std::string system_name;  ///< name of the instrument; empty: that in the point files
+  StripChoice strips;       ///< strips that are used; default: all
   std::vector<std::pair<std::string, std::string>> pairs;  ///< of strips; empty: all that overlap
   std::vector<ControlPoint> control;
-  std::vector<ReferenceSource> references;  ///< surfaces that strips are compared with
+  std::vector<ReferenceSource> references;  ///< surfaces with which strips are compared
   std::optional<int> gps_week;  ///< of times that are seconds of the week; default: from the data
-  SurveyObserver observer;      ///< called during the first reading
-  /// Standard deviations of the trajectory over time: their root mean squares over the times of the
-  /// strips replace those of settings.shared_errors, except those that are kept. InputError where
-  /// they cover none of the strips.
+  SurveyObserver observer;      ///< receives the points of the first of the two readings
+  /// Standard deviations of the trajectory over time. Their root mean squares over the times of the
+  /// strips replace the values of settings.shared_errors, except those that are kept (keep_…).
+  /// InputError if they cover none of the strips.
   std::vector<TrajectoryAccuracy> accuracy;
-  /// The trajectory is one of reconstructTrajectory(): its heights add to the standard deviations.
+  /// Whether the trajectory is one of reconstructTrajectory(). The uncertainty of its heights is
+  /// then included in the standard deviations.
   bool reconstructed = false;
-  /// Of a reconstructed trajectory: standard deviations of its own, which are not those of the
-  /// errors that the points have.
+  /// Standard deviations of a reconstructed trajectory, which are not those of the trajectory from
+  /// which the points were computed.
   std::vector<TrajectoryAccuracy> path_accuracy;
   bool keep_position = false, keep_roll_pitch = false, keep_heading = false;
-  /// Points of files with the extra bytes range_std (metres, of echoes of decomposed waveforms)
-  /// have this standard deviation of their ranges in addition to settings.noise.range.
+  /// Whether the extra bytes range_std of the files (metres, of echoes of decomposed waveforms) are
+  /// used as standard deviations of ranges in addition to settings.noise.range.
   bool use_range_std = true;
 };
 
+/// Result of calibrateSurvey().
 struct SurveyCalibration {
-  CalibrationResult result;  ///< result.verdict states whether it may be applied
-  std::vector<SurveyArea> areas;
-  /// by area: share of the information about the parameters, sum 1
+  CalibrationResult result;       ///< result.verdict states whether it may be applied
+  std::vector<SurveyArea> areas;  ///< the areas that were used
+  /// Share of each area in the information about the parameters; the sum is 1.
   std::vector<double> information;
   std::shared_ptr<const Trajectory> flight;  ///< with the attitude that was used
 };
 
 /** \brief Calibrates the LiDAR system of a survey from its point files (Habib et al. 2011).
  *
- * Reads the files twice; memory depends on the areas chosen and not on the survey.
+ * Reads the files twice; memory depends on the chosen areas and not on the number of points.
  *
- * \param flight as delivered; the model is the rigorous one where it has attitude
+ * \param flight the trajectory as delivered; if it has attitude, the model is the rigorous one
  *
- * UsageError for unknown strips or impossible settings, InputError for unusable input, Cancelled. A
- * calibration that does not converge or gives no improvement returns a result with a verdict.
+ * UsageError for unknown strips or impossible settings, InputError for unusable input, Cancelled.
+ * If the calibration does not converge or gives no improvement, the verdict of the result says so.
+ * \code
+ * pcl_als::SurveyReader survey({"strip1.las", "strip2.las"});
+ * pcl_als::CalibrationOptions options;
+ * options.control = pcl_als::readControl("control.csv");
+ * const auto calibration = pcl_als::calibrateSurvey(survey, flight, options);
+ * std::cout << calibration.result.briefReport() << '\n';
+ * \endcode
  */
 SurveyCalibration calibrateSurvey(SurveyReader& survey,
                                   const std::shared_ptr<const Trajectory>& flight,

@@ -25,18 +25,18 @@ namespace pcl_als {
  * Each cloud is relative to its own LocalFrame; trajectory and control are in the ground frame
  * (east, north, up; metres). The coordinates of a cloud are floats: within 1 km of the frame's
  * origin they have steps of at most 0.06 mm, within 4 km (LocalFrame::kMaximumExtent) of 0.25 mm.
- * Such a change has no larger effect on any pair, but it changes the choice of candidates:
- * estimates from LAS files and from clouds loaded from them differ by a few tenths of a standard
- * deviation at most (0.3 in a small block, tests). InputError where the steps exceed 2 mm.
+ * No pair changes by more, but the choice of candidates changes: estimates from LAS files and from
+ * clouds loaded from them differ by up to a few tenths of a standard deviation (0.3 in a small
+ * block). InputError if the steps exceed 2 mm.
  *
  * The point type needs x, y, z (float) and gps_time (double). return_number and number_of_returns,
  * classification, and flags (bits of PointFlag) are used where the type has them; without them
  * every return is assumed to be single, unclassified and valid, and vegetation is excluded by the
  * criterion of surfaces alone. For other types than PointLidar include impl/system_calibration.hpp.
  *
- * UsageError for wrong arguments, InputError for unusable data, Cancelled. A calibration that does
- * not converge returns a result with a verdict. Memory: that of calibrateSurvey(), besides the
- * clouds, which are not copied.
+ * UsageError for wrong arguments, InputError for unusable data, Cancelled. If the calibration does
+ * not converge, the verdict of the result says so. Memory: that of calibrateSurvey(); the clouds
+ * are not copied.
  * \code
  * pcl_als::SystemCalibration<pcl_als::PointLidar> calibration;
  * for (const auto& strip : pcl_als::loadStrips({"strip1.las", "strip2.las"}))
@@ -58,16 +58,17 @@ class SystemCalibration : public CloudJob<PointT> {
 
   SystemCalibration() : CloudJob<PointT>("SystemCalibration") {}
 
-  /// Control, settings, pairs of strips and all else; the strips, the references' frame and the
-  /// resolution are those of the clouds.
+  /// Settings, control, pairs of strips and all other options of calibrateSurvey(). The strips and
+  /// the step of their coordinates are those of the clouds.
   void setOptions(CalibrationOptions options) { options_ = std::move(options); }
   const CalibrationOptions& getOptions() const { return options_; }
 
-  /// Estimates the parameters; if an exception is thrown, there is no result.
+  /// Estimates the parameters. If an exception is thrown, there is no result.
   void calibrate();
   /// Result of the last calibrate(); getResult().verdict states whether it may be applied.
-  /// UsageError where there is none.
+  /// UsageError if there is no result.
   const CalibrationResult& getResult() const;
+  /// Whether there is a result whose iteration has converged.
   bool hasConverged() const { return calibration_ && calibration_->result.converged; }
   /// The result with the areas that were used and the attitude that was recovered.
   const SurveyCalibration& getSurveyCalibration() const;

@@ -18,22 +18,21 @@
 
 namespace pcl_als {
 
-/** \brief Band values and class of a single point: its own values where it has them, otherwise
- * those of its cell.
+/** \brief Classifies single points by their own values and those of their raster cell.
  *
- * height is the point's height above the cell's terrain, surface its height, intensity its own; all
- * other bands are those of the raster. A return from under a tree can therefore be ground.
- * Thread-safe.
+ * The band height is the height of the point above the terrain of its cell, surface its height and
+ * intensity its own intensity; all other bands are those of the cell. A return from under a tree
+ * can therefore be ground. Thread-safe.
  */
 class PointClassifier {
  public:
-  /// UsageError when the raster lacks a band that the model needs (for height: terrain).
+  /// UsageError if the raster lacks a band that the model needs (terrain for height).
   PointClassifier(std::shared_ptr<const MaximumLikelihood> classifier,
                   std::shared_ptr<const Raster> raster);
 
-  /// \param x, y, z metres, ground frame
+  /// The class of a point. \a x, \a y, \a z: metres, ground frame. No class outside the raster.
   MaximumLikelihood::Decision classify(double x, double y, double z, double intensity) const;
-  /// For a point in a known cell. \param cell see RasterGrid::index()
+  /// The class of a point whose cell is known. \a cell: RasterGrid::index().
   MaximumLikelihood::Decision classifyIn(std::size_t cell, double z, double intensity) const;
   const GaussianModel& model() const { return classifier_->model(); }
 
@@ -46,8 +45,8 @@ class PointClassifier {
   std::vector<const float*> bands_;
 };
 
-/// ASPRS class codes of the names of land cover: tree 5, grass 3, soil 2, built-up and building 6,
-/// road 11, water 9, ground 2; 1 (unclassified) for others.
+/// ASPRS class code of a land cover class: tree, trees and vegetation 5, grass 3, soil and ground
+/// 2, built-up and building 6, road 11, water 9; 1 (unclassified) for other names.
 std::uint8_t asprsCodeOf(const std::string& class_name);
 
 /// Whether an ASPRS class code is that of noise (7 low, 18 high).
@@ -57,9 +56,10 @@ constexpr bool isNoise(std::uint8_t code) {
 
 /** \brief Writes into each point's classification the ASPRS code of its land cover.
  *
- * Points that are not classified (outside the raster, rejected, not finite) and points of noise (7,
- * 18) keep their code. All other fields and the order are kept; the input is not changed. For other
- * point types with x, y, z, intensity and classification include impl/land_cover_filter.hpp.
+ * Points that are not classified (outside the raster, rejected, not finite) and noise points (7,
+ * 18) keep their code. All other fields and the order of the points are kept; the input is not
+ * changed. UsageError (in filter()) without a classifier. For other point types with x, y, z,
+ * intensity and classification include impl/land_cover_filter.hpp.
  * \code
  * pcl_als::LandCoverFilter<pcl_als::PointLidar> filter;
  * filter.setClassifier(std::make_shared<pcl_als::PointClassifier>(likelihood, raster));
@@ -82,15 +82,15 @@ class LandCoverFilter : public pcl::Filter<PointT> {
   }
   std::shared_ptr<const PointClassifier> getClassifier() const { return classifier_; }
 
-  /// Origin of the cloud's coordinates; default: that of the ground frame.
+  /// Frame of the cloud's coordinates, Strip::frame; default: the origin of the ground frame.
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 
-  /// Codes of classes by name; those not named have asprsCodeOf().
+  /// ASPRS codes by class name; other classes have the code of asprsCodeOf().
   void setCodes(std::map<std::string, std::uint8_t> codes) { codes_ = std::move(codes); }
   const std::map<std::string, std::uint8_t>& getCodes() const { return codes_; }
 
-  /// Points of the last filter() that kept their code.
+  /// Number of points of the last filter() that were not classified, including noise points.
   std::size_t getUnclassified() const { return unclassified_; }
 
  protected:

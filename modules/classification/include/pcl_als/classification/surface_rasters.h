@@ -13,16 +13,18 @@
 
 namespace pcl_als {
 
-/// Options of the rasters of points.
+/// Options of SurfaceAccumulator.
 struct SurfaceOptions {
   enum class Interpolation { tin, inverse_distance };
   enum class Ground { classified, filtered };
 
   Interpolation interpolation = Interpolation::tin;
-  /// Empty cells of the surface are interpolated where the circle through the three points around
-  /// them has at most this radius (TIN), or from points within it (inverse distance), metres.
+  /// Limit of the interpolation of empty cells of the surface, metres: largest radius of the circle
+  /// through the three cells of a triangle (TIN), or of the circle of cells used (inverse
+  /// distance).
   double surface_gap = 6.0;
-  double terrain_gap = 30.0;  ///< the same for the terrain, which has houses and woods to bridge
+  double terrain_gap = 30.0;  ///< the same for the terrain, below houses and woods
+  /// Ground returns: by ground_classes, or by a morphological filter.
   Ground ground = Ground::classified;
   std::vector<std::uint8_t> ground_classes = groundAndRoads();  ///< ASPRS codes
   double texture_window = 2.5;   ///< side of the square for slope and roughness, metres
@@ -30,13 +32,13 @@ struct SurfaceOptions {
 
   static std::vector<std::uint8_t> groundAndRoads();  ///< 2 ground, 9 water, 11 road
 
-  /// UsageError for values that are impossible.
-  void check() const;
-  /// Number of cells around a tile on which its cells depend.
+  void check() const;  ///< UsageError for impossible values
+  /// Width of the margin around a tile on which the values of the tile depend, cells. \a cell:
+  /// metres.
   int margin(double cell) const;
 };
 
-/// A return with the values that rasters need; metres, ground frame.
+/// A return with the values that SurfaceAccumulator needs; metres, ground frame.
 struct SurfaceReturn {
   double x = 0.0, y = 0.0, z = 0.0;
   float intensity = 0.0F;
@@ -48,6 +50,7 @@ struct SurfaceReturn {
 /// Source of the value of a cell.
 enum class CellSource : std::uint8_t { empty, interpolated, measured };
 
+/// Numbers of cells by source.
 struct CellCounts {
   std::uint64_t measured = 0, interpolated = 0, empty = 0;
   std::uint64_t cells() const { return measured + interpolated + empty; }
@@ -55,7 +58,14 @@ struct CellCounts {
   void merge(const CellCounts& other);
 };
 
-/** \brief Rasters of the points over a grid: heights, intensity, texture, return statistics.
+/// Bands of SurfaceAccumulator, and the source of the values of surface and terrain of each cell
+/// (RasterGrid::index()).
+struct SurfaceResult {
+  Raster raster;
+  std::vector<CellSource> surface_source, terrain_source;
+};
+
+/** \brief Computes rasters of points: heights, intensity, texture, return statistics.
  *
  * | band | per cell |
  * |---|---|
@@ -72,33 +82,29 @@ struct CellCounts {
  * | height_std | standard deviation of the heights of all returns of the cell, m |
  * | echo_width | mean full width at half maximum of the echoes of all returns that have one, ns |
  *
- * Cells without returns are interpolated (surface, terrain, intensity, echoes_per_pulse,
- * height_std, echo_width): linearly in the TIN of the
- * cells with returns, or by inverse squared distances from the nearest of them; cells further from
- * any return stay empty. Points of the classes 7 and 18 (noise) are excluded.
+ * Empty cells of surface, terrain, intensity, echoes_per_pulse, height_std and echo_width are
+ * interpolated, linearly in the TIN of the cells with returns or by inverse squared distances from
+ * the nearest of them. Cells further from any return remain empty. Points of the classes 7 and 18
+ * (noise) are excluded.
  *
- * A tile with SurfaceOptions::margin() cells around it has the values of the whole block. Memory:
+ * A tile with a margin of SurfaceOptions::margin() cells has the values of the whole block. Memory:
  * 96 bytes per cell, in compute() up to 340 more; none per point.
  * \code
- * SurfaceAccumulator tile(grid, options);
+ * pcl_als::SurfaceAccumulator tile(grid, options);
  * for (…) tile.add({x, y, z, intensity, return_number, number_of_returns, classification});
- * const SurfaceResult result = tile.compute();
+ * const pcl_als::SurfaceResult result = tile.compute();
  * \endcode
  */
-struct SurfaceResult {
-  Raster raster;
-  std::vector<CellSource> surface_source, terrain_source;
-};
-
 class SurfaceAccumulator {
  public:
   /// Names of the bands, in order.
   static const std::vector<std::string>& bandNames();
 
+  /// UsageError for impossible options.
   SurfaceAccumulator(RasterGrid grid, SurfaceOptions options);
   ~SurfaceAccumulator();
 
-  /// False for a point outside the grid or of noise, which is not used.
+  /// Adds a return; false if it is not used, because it lies outside the grid or is noise.
   bool add(const SurfaceReturn& point);
   SurfaceResult compute() const;
 
@@ -120,11 +126,12 @@ std::vector<RasterTile> tilesOf(const RasterGrid& grid, int side, int margin);
 /// UsageError for a name that no band of SurfaceAccumulator has.
 void requireBand(const std::string& name);
 
-/// The bands of a list "height,intensity". UsageError for a name that SurfaceAccumulator does not
-/// have, for one that appears twice, and for a list without names.
+/// Parses a list of bands "height,intensity". UsageError for a name that SurfaceAccumulator does
+/// not have, a repeated name, and an empty list.
 std::vector<std::string> bandsIn(const std::string& list);
 
-/// The ASPRS class codes of a list "2,9". UsageError for what is no code, and for an empty list.
+/// Parses a list of ASPRS class codes "2,9". UsageError for anything that is no code, and for an
+/// empty list.
 std::vector<std::uint8_t> classCodesIn(const std::string& list);
 
 }  // namespace pcl_als

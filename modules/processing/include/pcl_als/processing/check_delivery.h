@@ -19,18 +19,20 @@ namespace pcl_als {
 struct SeparationImageOptions {
   std::filesystem::path folder;
   std::string name = "swath_separation";  ///< of the files, without extension
-  double cell = 0.0;                      ///< metres; 0: as the quality level requires
+  double cell = 0.0;                      ///< metres; 0: that of the quality level
   int quality_level = 2;                  ///< of the USGS Lidar Base Specification, 0 … 3
 };
 
+/// Options of checkDelivery().
 struct DeliveryCheckOptions {
   CheckSettings settings;
-  StripChoice strips;             ///< strips that are used; default all
-  std::optional<int> gps_week;    ///< of times that are seconds of the week; default: from the data
-  std::vector<SurveyArea> areas;  ///< to compare at; empty: chosen. Those of an earlier check of
-                                  ///< the same block make both comparable.
-  std::optional<SeparationImageOptions> separation;  ///< images to write; default none
-  SurveyObserver observer;                           ///< called during the second reading
+  StripChoice strips;           ///< strips that are used; default: all
+  std::optional<int> gps_week;  ///< of times that are seconds of the week; default: from the data
+  /// Areas of comparison; empty: they are chosen. With the areas of an earlier check of the same
+  /// block, the two checks are comparable.
+  std::vector<SurveyArea> areas;
+  std::optional<SeparationImageOptions> separation;  ///< images to be written; default: none
+  SurveyObserver observer;  ///< receives the points of the second of its readings
 };
 
 struct DeliveryCheckResult {
@@ -39,23 +41,31 @@ struct DeliveryCheckResult {
   std::string crs;                ///< of the points, WKT or "EPSG:…"; empty: unknown
 };
 
-/** \brief Measures the agreement of the overlapping strips of a survey with each other and with
- * control.
+/** \brief Measures the agreement of overlapping strips with each other and with control.
  *
- * Reads the files three times; memory depends on the areas chosen and not on the survey.
+ * The measures, their signs and their sources (USGS, ASPRS) are described on the page of module
+ * quality. The files are read three times, once by the constructor of \a survey; memory depends on
+ * the chosen areas and not on the number of points.
  *
  * \param trajectory for scan angles that are finer than those of the files; may be null
  *
  * UsageError for unknown strips or impossible settings, InputError for unusable input, Cancelled.
+ * \code
+ * pcl_als::SurveyReader survey({"strip1.las", "strip2.las"});
+ * const auto check = pcl_als::checkDelivery(survey, nullptr);
+ * for (const pcl_als::CheckedPair& pair : check.block.pairs)
+ *   std::cout << pair.a << " & " << pair.b << ": " << pair.assessment.vertical.rms << " m\n";
+ * \endcode
  */
 DeliveryCheckResult checkDelivery(SurveyReader& survey,
                                   const std::shared_ptr<const Trajectory>& trajectory,
                                   const DeliveryCheckOptions& options = {},
                                   const ProgressCallback& progress = {});
 
-/// Another set of the files \a others: \a given, or the point files of the one folder in it, in the
-/// order of the files of that name in \a others, because strips are named, and pairs turned, by it.
-/// InputError where there are none.
+/// The files of another version of the same strips: \a given, or the point files of the folder if
+/// \a given is a single folder. They are sorted into the order of the files of the same names in
+/// \a others, because the names of strips and the order of pairs depend on it. InputError if there
+/// are none.
 std::vector<std::string> filesLike(const std::vector<std::string>& others,
                                    const std::vector<std::string>& given);
 

@@ -10,11 +10,12 @@
 
 namespace pcl_als {
 
-/// Writes and reads the statistics of classes: bands, and per class name, prior, samples,
-/// shrinkage, mean and covariance. Numbers keep all their digits.
+/// Writes the statistics of classes as JSON: the bands, and the name, prior, samples, shrinkage,
+/// mean and covariance of each class. readClassModel() reads back the same numbers. InputError if
+/// the file cannot be written.
 void writeClassModel(const std::filesystem::path& path, const GaussianModel& model,
                      const std::vector<std::string>& remarks);
-/// InputError naming the file and what is wrong with it.
+/// Reads such a file. InputError names the file and the fault.
 GaussianModel readClassModel(const std::filesystem::path& path);
 
 }  // namespace pcl_als

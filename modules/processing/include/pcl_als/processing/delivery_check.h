@@ -23,10 +23,10 @@ namespace pcl_als {
  * of the rounding of floats is described with SystemCalibration.
  *
  * The point type needs x, y and z (float). gps_time, return_number and number_of_returns,
- * classification, flags (bits of PointFlag) and scan_angle are used where the type has them;
- * a trajectory gives scan angles that are finer
- * than those of the points; without either, trends with scan angle are not computed. For other
- * types than PointLidar include impl/strip_check.hpp.
+ * classification, flags (bits of PointFlag) and scan_angle are used where the type has them. A
+ * trajectory is optional; it gives finer scan angles than those of the points. Without either,
+ * trends with the scan angle are not computed. For other types than PointLidar include
+ * impl/delivery_check.hpp.
  *
  * UsageError for wrong arguments, InputError for data that cannot be used, Cancelled.
  * \code
@@ -46,25 +46,25 @@ class DeliveryCheck : public CloudJob<PointT> {
 
   DeliveryCheck() : CloudJob<PointT>("StripCheck") {}
 
-  /// Settings::control: points on the ground, used vertically; default none.
+  /// Control points, which are used vertically (CheckSettings::control); default: none.
   void setControl(std::vector<ControlPoint> control) {
     options_.settings.control = std::move(control);
   }
   const std::vector<ControlPoint>& getControl() const { return options_.settings.control; }
 
-  /// All other settings, and the control.
+  /// All settings, including the control points.
   void setSettings(const CheckSettings& settings) { options_.settings = settings; }
   const CheckSettings& getSettings() const { return options_.settings; }
 
   /// Areas of comparison, such as those of an earlier check of the same block; empty (default):
   /// they are chosen.
   void setAreas(std::vector<SurveyArea> areas) { options_.areas = std::move(areas); }
-  /// Areas of the last check().
+  /// Areas of the last check(); UsageError if there is no result.
   const std::vector<SurveyArea>& getAreas() const { return requireCheck().areas; }
 
-  /// Computes the result; if an exception is thrown, there is none.
+  /// Computes the result. If an exception is thrown, there is no result.
   void check();
-  /// Result of the last check(); UsageError where there is none.
+  /// Result of the last check(); UsageError if there is none.
   const CheckedBlock& getResult() const { return requireCheck().block; }
 
  private:

@@ -25,67 +25,75 @@ namespace pcl_als {
 class Communicator;
 class SurveyReader;
 
-/// Contents of point files.
+/// The point files from which rasters are made.
 struct RasterInput {
   std::vector<std::filesystem::path> paths;
-  std::vector<PointFileInfo> infos;  ///< of each, with the box of its points
+  std::vector<PointFileInfo> infos;  ///< by file, with the box of its points
   std::uint64_t points = 0;
-  double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  ///< of the points, metres
-  std::string crs;                                            ///< of the first file that has one
-  /// Units that are converted or assumed, headers that state another box than that of the points.
+  double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  ///< box of the points, metres
+  std::string crs;                                            ///< of the first file that states one
+  /// Units that are converted or assumed, and headers that state another box than the points have.
   std::vector<std::string> remarks;
-  /// The same files: all points, or those of chooseStrips().
+  /// Reader of all points, or of those of chooseStrips().
   std::shared_ptr<const SurveyReader> survey;
   std::vector<ExcludedPoints> excluded;
 };
 
 /** \brief Reads the coordinates of every file once, because the box in a header may be wrong.
  *
- * Collective: \a processes (null: one) share the files. InputError for files without points or that
- * commonReference() refuses. \a threads: 0: all cores.
+ * \param threads 0: all cores
+ * \param processes the processes that share the files (collective); null: one process
+ *
+ * InputError for files without points, and if their CRS or units do not agree (commonReference()).
  */
 RasterInput rasterInput(const std::vector<std::string>& paths, int threads = 0,
                         Communicator* processes = nullptr);
-/// Restricts the contents to the chosen strips: reads every file twice.
+/// Restricts the input to the chosen strips; reads every file twice. UsageError for an unknown
+/// strip.
 void chooseStrips(const StripChoice& choice, RasterInput& files, int threads = 0);
 
+/// Options of classifyLandCover().
 struct LandCoverOptions {
-  SurfaceOptions surface;  ///< how the rasters are made
-  /// Bands by which classes are separated, of SurfaceAccumulator::bandNames().
+  SurfaceOptions surface;  ///< settings of the rasters
+  /// Bands that are used for the classification, from SurfaceAccumulator::bandNames().
   std::vector<std::string> bands{"height", "intensity", "roughness", "multiple_returns"};
-  double cell = 1.0;                ///< metres
-  std::optional<RasterGrid> grid;   ///< default: cells of this size over all points
-  std::vector<ClassSite> training;  ///< or a model
-  std::optional<GaussianModel> model;
-  std::vector<ClassSite> checks;  ///< for the assessment of the accuracy; may be empty
-  std::vector<std::pair<std::string, double>> priors;  ///< by class; the others share the rest
+  double cell = 1.0;                   ///< metres
+  std::optional<RasterGrid> grid;      ///< default: cells of this size over all points
+  std::vector<ClassSite> training;     ///< training sites, or
+  std::optional<GaussianModel> model;  ///< the statistics of an earlier training
+  std::vector<ClassSite> checks;       ///< check sites for the accuracy; may be empty
+  /// Priors by class; the other classes share the remaining probability.
+  std::vector<std::pair<std::string, double>> priors;
   double reject = 0.0;  ///< probability below which a cell has no class, 0 … 0.5
-  /// metres around training points within which cells are training cells
+  /// Cells within this distance of a training point are training cells, metres.
   double training_radius = 0.0;
-  int tile = 768;  ///< cells, side of the tiles that are processed
-  int threads = 0;
+  int tile = 768;   ///< side of the tiles that are processed, cells
+  int threads = 0;  ///< 0: all cores; the result does not depend on it
+  // Outputs.
   std::filesystem::path map;        ///< GeoTIFF of classes; empty: only rasters are made
   std::filesystem::path grids;      ///< GeoTIFF of all bands; empty: not kept
   std::filesystem::path posterior;  ///< GeoTIFF of probabilities; empty: none
   std::filesystem::path points;     ///< folder of point files with classes; empty: none
   BatchOptions batch;  ///< processes that share tiles and files; continuation for point files
-  /// Names of the sites in messages: those of their files.
+  /// Names of the sites in messages, such as those of their files.
   std::string training_name = "training sites", checks_name = "check sites";
 };
 
-/// Classes of check sites and of their cells.
+/// Reference classes of check sites and classes of their cells.
 struct CheckReport {
   std::vector<CheckedSite> sites;
   std::vector<std::string> remarks;
 };
+/// Numbers of cells of a map.
 struct CoverCounts {
   std::vector<std::uint64_t> cells;  ///< per class
   std::uint64_t rejected = 0, without_values = 0;
 };
 
+/// Numbers of points and cells of the rasters.
 struct RasterCounts {
-  std::uint64_t points = 0;       ///< inside the raster, without noise
-  std::uint64_t echo_widths = 0;  ///< of these, with the width of a decomposed echo
+  std::uint64_t points = 0;       ///< points inside the raster, without noise
+  std::uint64_t echo_widths = 0;  ///< points among them with the width of a decomposed echo
   CellCounts surface, terrain;
 
   void add(const RasterCounts& other) {
@@ -99,7 +107,7 @@ struct RasterCounts {
 struct LandCoverResult {
   RasterGrid grid;
   RasterCounts rasters;
-  std::optional<GaussianModel> model;  ///< given, or trained
+  std::optional<GaussianModel> model;  ///< that of the options, or the trained one
   CoverCounts cover;                   ///< of the map
   CheckReport checks;                  ///< classes of the cells at check sites
   /// Classes whose covariance the training samples do not determine; their cells are not reliable.
@@ -107,11 +115,19 @@ struct LandCoverResult {
   std::vector<std::string> remarks;
 };
 
-/** \brief Rasters of strips, classified by Gaussian maximum likelihood, from point files.
+/** \brief Makes rasters of point files and classifies them by Gaussian maximum likelihood.
  *
  * Reads the files tile by tile; memory is that of a tile per thread. Outputs appear only when they
- * are complete. UsageError for impossible options, InputError for unusable input (no points in the
- * rasters, no ground, sites outside), Cancelled.
+ * are complete. The method is described on the page of module classification. UsageError for
+ * impossible options, InputError for unusable input (no points in the rasters, no ground, sites
+ * outside), Cancelled.
+ * \code
+ * const auto files = pcl_als::rasterInput({"strip1.laz", "strip2.laz"});
+ * pcl_als::LandCoverOptions options;
+ * options.training = pcl_als::readClassSites("training.csv");
+ * options.map = "landcover.tif";
+ * const auto result = pcl_als::classifyLandCover(files, options);
+ * \endcode
  */
 LandCoverResult classifyLandCover(const RasterInput& files, const LandCoverOptions& options,
                                   const ProgressCallback& progress = {});

@@ -19,45 +19,48 @@
 
 namespace pcl_als {
 
-/// Cross sections of echoes by the radar equation.
+/// Settings of the backscatter cross sections of echoes by the radar equation (Wagner 2010).
 struct CrossSectionSettings {
   std::shared_ptr<const Trajectory> trajectory;  ///< for the ranges; null: no cross sections
-  std::optional<int> gps_week;
-  /// Divergence of the beam, extinction, and the calibration constant if there are no targets.
+  std::optional<int> gps_week;  ///< of times that are seconds of the week; default: from the data
+  /// Beam divergence, extinction, and the calibration constant if there are no targets.
   CrossSectionModel model;
   /// Level surfaces of known reflectance, from which the calibration constant is estimated.
   std::vector<ReferenceTarget> targets;
-  double target_radius = 1.0;  ///< metres: points this close belong to a target
-  /// Divide echoes behind others of their pulse by the transmission that these leave
-  /// (pulseTransmissions()), with the median coefficient of single echoes as that of a whole pulse.
+  double target_radius = 1.0;  ///< metres; points within this distance belong to a target
+  /// Divide the cross section of an echo by the share of the pulse that earlier echoes of the pulse
+  /// leave (pulseTransmissions()). The median coefficient of single echoes is taken for a surface
+  /// that intercepts the whole pulse.
   bool correct_attenuation = false;
   bool force = false;  ///< continue with a trajectory that cannot belong to the points
 };
 
+/// Calibration of the cross sections.
 struct CrossSectionResult {
-  static constexpr double kLeastTransmission = 0.1;
+  static constexpr double kLeastTransmission = 0.1;  ///< smallest divisor for the attenuation
 
-  double constant = 1.0;                     ///< of CrossSectionModel
-  bool calibrated = false;                   ///< otherwise cross sections are relative
-  std::optional<ReferenceResult> reference;  ///< if there were targets
+  double constant = 1.0;                     ///< calibration constant of CrossSectionModel
+  bool calibrated = false;                   ///< false: cross sections are relative
+  std::optional<ReferenceResult> reference;  ///< if there are targets
   double full_coefficient = 0.0;  ///< backscatter coefficient of a whole pulse; 0: no correction
 };
 
-/// Where the times of the echoes of a Pulse file count from.
+/// Origin of the times of the echoes of a PulseWaves file.
 enum class RangeOrigin {
-  automatic,  ///< the emitted pulse where the file states when its samples begin, else the anchor
-  anchor,     ///< as the file states them
-  emitted     ///< the maximum of the emitted pulse of the same pulse
+  automatic,  ///< emitted, if the file states when the emitted samples begin; else anchor
+  anchor,     ///< the anchor of the pulse
+  emitted     ///< the maximum of the emitted waveform of the pulse
 };
 
-/// EchoSettings, and what is written.
+/// EchoSettings, and settings of the output.
 struct WaveformSettings : EchoSettings {
   CrossSectionSettings cross_sections;
-  bool new_echoes = true;     ///< write the echoes that no return belongs to
+  bool new_echoes = true;     ///< write points for echoes without a return
   bool move_returns = false;  ///< move returns along their pulse to the time of their echo
-  RangeOrigin range_from = RangeOrigin::automatic;  ///< of Pulse files
-  bool examples = false;  ///< waveforms in the result: \a shown, or a choice of WaveformExamples
-  std::vector<std::uint64_t> shown;  ///< numbers of points, or of pulses of a Pulse file, from 0
+  RangeOrigin range_from = RangeOrigin::automatic;  ///< for PulseWaves files
+  /// Whether the result has examples of waveforms: \a shown, or a choice (WaveformExamples).
+  bool examples = false;
+  std::vector<std::uint64_t> shown;  ///< indices of points, or of pulses of a PulseWaves file
   int threads = 0;                   ///< 0: all cores; the result does not depend on it
 
   /// UsageError if a waveform that is to be shown does not exist among \a count points or pulses.
@@ -66,41 +69,43 @@ struct WaveformSettings : EchoSettings {
 
 /// Counts of a decomposed file.
 struct WaveformCounts {
-  std::uint64_t pulses = 0;            ///< of a Pulse file
+  std::uint64_t pulses = 0;            ///< of a PulseWaves file
   std::uint64_t points = 0;            ///< of a file of points
-  std::uint64_t without_waveform = 0;  ///< points, or pulses
+  std::uint64_t without_waveform = 0;  ///< points or pulses without a waveform
   std::uint64_t waveforms = 0;
   std::uint64_t echoes = 0;
-  std::uint64_t matched = 0;     ///< points that an echo belongs to
-  std::uint64_t unmatched = 0;   ///< points with a waveform that no echo belongs to
-  std::uint64_t added = 0;       ///< echoes that no point belongs to
+  std::uint64_t matched = 0;     ///< points with an echo
+  std::uint64_t unmatched = 0;   ///< points with a waveform, but without an echo
+  std::uint64_t added = 0;       ///< echoes without a point
   std::uint64_t saturated = 0;   ///< waveforms with saturated samples
   std::uint64_t single = 0;      ///< waveforms with one echo
-  double sum_offset_ps = 0.0;    ///< of the echoes behind their points, over \a matched
+  double sum_offset_ps = 0.0;    ///< sum of the times of echoes behind their points, picoseconds
   std::uint64_t uncovered = 0;   ///< waveforms that the trajectory does not cover
   std::uint64_t attenuated = 0;  ///< echoes whose cross section was divided by a transmission
-  std::uint64_t opaque = 0;      ///< those of them that had the least transmission
+  std::uint64_t opaque = 0;      ///< echoes among them with the smallest transmission
 
   void merge(const WaveformCounts& other);
+  /// Mean time of echoes behind their points, picoseconds.
   double meanOffset() const {
     return matched > 0 ? sum_offset_ps / static_cast<double>(matched) : 0.0;
   }
 };
 
-/// The response that was used for the waveforms of a descriptor.
+/// The system response that was used for the waveforms of a descriptor.
 struct UsedPulse {
   unsigned descriptor = 0;
   double width_ns = 0.0;  ///< full width at half maximum
-  std::string origin;     ///< its shape and where it is from, as text
+  std::string origin;     ///< shape and origin of the response, as text
 };
 
+/// Result of decomposeWaveforms().
 struct WaveformResult {
   WaveformCounts counts;
   std::vector<UsedPulse> pulses;
-  /// Samples of the response of the descriptor with most waveforms, of any if it was given; the
-  /// time 0 is that of the maximum, which is the time of an echo.
+  /// Samples of the response of the descriptor with the most waveforms. Times count from its
+  /// maximum, which is the time of an echo.
   std::vector<double> pulse;
-  double pulse_spacing_ns = 0.0, pulse_first_ns = 0.0;  ///< and the time of the first sample
+  double pulse_spacing_ns = 0.0, pulse_first_ns = 0.0;  ///< spacing; time of the first sample
   std::optional<CrossSectionResult> cross_sections;
   std::vector<WaveformExample> examples;
   std::vector<std::string> remarks;
@@ -109,43 +114,50 @@ struct WaveformResult {
 /** \brief Decomposes the waveforms of a LAS, LAZ or PulseWaves file into echoes, and writes them as
  * points.
  *
+ * The method is described on the page of module waveform.
+ *
  * Every point keeps its record. The extra bytes amplitude (digitizer counts), echo_width and
  * echo_width_std (full width at half maximum, nanoseconds), range_std (metres),
  * number_of_samples_saturated and new_echo are appended, and with a trajectory cross_section and
- * backscatter_coefficient (CrossSectionModel); without an echo they are NaN. Returns
- * and echoes are paired by PulseEchoes. Echoes that no return belongs to
- * follow the points of their pulse: the record of the nearest return of the pulse, flagged as
- * synthetic, with new_echo 1, class 1, and with the position and the return point waveform location
- * of the echo. Return numbers are renumbered where echoes are added and all returns of the pulse
- * share one waveform, up to what the point format can store.
+ * backscatter_coefficient (CrossSectionModel). They are NaN for points without an echo. Returns and
+ * echoes are paired by PulseEchoes. Points for echoes without a return follow the points of their
+ * pulse. They have the record of the nearest return of the pulse with the position and the return
+ * point waveform location of the echo, are flagged as synthetic, and have new_echo 1 and class 1.
+ * If echoes are added and all returns of the pulse refer to one waveform, the returns are
+ * renumbered as far as the point format can store the numbers.
  *
- * Points that share a waveform must follow each other for this; where the same packet is met again,
- * no echo is added a second time if fewer than a million waveforms lie between. Memory is constant.
- * Output through AtomicFile, with external waveforms copied (WaveformCopy).
+ * Points that refer to one waveform must follow each other. If the same packet is found again after
+ * fewer than a million other waveforms, its echoes are not added a second time. Memory is constant.
+ * The output appears only when it is complete; external waveforms are copied (WaveformCopy).
  *
- * A Pulse file (.pls, with its .wvs) has pulses and no returns: every echo is a new point, in LAS
- * 1.4 and point format 6, with the reference, time, scan flags and source of the pulse (0 for
- * sources above 65535), and its scanner as channel. All are flagged as synthetic, with new_echo 1
- * and class 1; return numbers count the echoes of a pulse. The intensity is the amplitude as a
- * share of the largest count, over 16 bits, and the extra byte channel is that of the receiver. A
- * point lies at anchor + (t - e) (target - anchor) / 1000 with the time t of the echo from the
- * anchor in sampling units. By RangeOrigin e is 0, or the time of the maximum of the emitted pulse,
- * less its mean in the file where the begin of its samples is not stated. Without a given response,
- * that of a Pulse file with emitted pulses is their mean (EmittedPulseMean).
+ * A PulseWaves file (.pls, with its .wvs) has pulses and no returns. Every echo is a new point, in
+ * LAS 1.4 and point format 6, with the CRS of the file and the time, scan flags and source of the
+ * pulse (0 for sources above 65535); its scanner is the scanner channel. All points are flagged as
+ * synthetic, with new_echo 1 and class 1; return numbers count the echoes of a pulse. The intensity
+ * is the amplitude as a share of the largest count, scaled to 16 bits, and the extra byte channel
+ * is that of the receiver. A point lies at anchor + (t - e) (target - anchor) / 1000 with the time
+ * t of the echo from the anchor in sampling units. Depending on RangeOrigin, e is 0 or the time of
+ * the maximum of the emitted pulse, reduced by its mean in the file if the begin of the emitted
+ * samples is not stated. If no response is given and the file has emitted pulses, the response is
+ * their mean (EmittedPulseMean).
  *
- * UsageError for settings out of their ranges, where the output is the input, for cross sections,
- * moved returns or returns alone of a Pulse file, for a RangeOrigin of other files, and for
- * waveforms to be shown that the file does not have. InputError for files without waveforms,
- * damaged descriptors and packets (WaveformReader, PulseWavesReader), and if the width of the
- * response cannot be estimated; also for a trajectory that does not belong to the points, and if
- * the targets have too few single echoes. Cancelled.
+ * UsageError for settings out of their ranges, if the output is the input, for cross sections,
+ * moved returns or \a new_echoes false with a PulseWaves file, for a RangeOrigin with other files,
+ * and for examples that the file does not have. InputError for files without waveforms, damaged
+ * descriptors and packets (WaveformReader, PulseWavesReader), a trajectory that does not belong to
+ * the points, if the width of the response cannot be estimated, and if the targets have too few
+ * single echoes. Cancelled.
+ * \code
+ * const auto result = pcl_als::decomposeWaveforms("strip1.las", "echoes.las");
+ * std::cout << describe(result);
+ * \endcode
  */
 WaveformResult decomposeWaveforms(const std::filesystem::path& input,
                                   const std::filesystem::path& output,
                                   const WaveformSettings& settings = {},
                                   const ProgressCallback& progress = {});
 
-/// The counts as text of a few lines.
+/// The counts of a result as a text of a few lines.
 std::string describe(const WaveformResult& result);
 
 }  // namespace pcl_als

@@ -11,25 +11,27 @@
 
 namespace pcl_als {
 
-/// A table of a report. Numbers are given as text with the digits to be shown; an empty cell is
-/// shown as a dash. A row may end early: its last cell, a remark, extends over the rest.
+/// A table of a report. Numbers are texts with the digits to be shown; an empty cell is shown as a
+/// dash. If a row has fewer cells than the table, its last cell extends over the remaining columns.
 struct ReportTable {
-  std::string name;                  ///< of its CSV file: NAME.csv; empty: no file
+  std::string name;                  ///< the table is written to NAME.csv; empty: no file
   std::string caption;               ///< what the table shows, with units
   std::vector<std::string> columns;  ///< headings
   std::vector<std::vector<std::string>> rows;
-  std::vector<std::size_t> failed = {};  ///< rows that are marked: a limit is exceeded
+  std::vector<std::size_t> failed = {};  ///< indices of rows that exceed a limit and are marked
 };
 
+/// Grade of the verdict of a report, shown by its colour.
 enum class VerdictGrade { good, attention, bad };
 
-/** \brief A report for decisions: one self-contained HTML page with the pictures inside, and the
- * same without pictures as Markdown and CSV.
+/** \brief A report as one self-contained HTML page with its pictures, and without them as Markdown
+ * and CSV.
  *
- * The page needs no network, has a table of contents and a style for printing, and is complete
- * without its script, by which tables are sorted and long ones filtered. Everything given is
- * escaped. \code HtmlReport report("Calibration of block 7", "pcl_als_calibrate 0.2.0");
- * report.setVerdict(VerdictGrade::good, "The strips agree to 2.1 cm.");
+ * The page needs no network and has a table of contents and a style for printing. Its script sorts
+ * tables and filters long ones; without it the page is complete. All texts are escaped.
+ * \code
+ * pcl_als::HtmlReport report("Calibration of block 7", "pcl_als_calibrate 0.2.0");
+ * report.setVerdict(pcl_als::VerdictGrade::good, "The strips agree to 2.1 cm.");
  * report.addVerdict("Boresight roll is −90.1 ± 0.8 arcsec.");
  * report.addSection("Pairs of strips");
  * report.addTable({"pairs", "Normal distances, m", {"pair", "before", "after"}, rows});
@@ -41,6 +43,7 @@ enum class VerdictGrade { good, attention, bad };
  */
 class HtmlReport {
  public:
+  /// \param tool name and version of the program
   HtmlReport(std::string title, std::string tool);
 
   void setVerdict(VerdictGrade grade, std::string headline);
@@ -54,12 +57,13 @@ class HtmlReport {
   void addPicture(const Canvas& picture, const std::string& caption);
 
   void addSetting(std::string name, std::string value);
-  /// An input with its size and time of last change; a missing file is listed as such.
+  /// Lists an input with its size and time of modification; a missing file is listed as missing.
   void addInput(const std::filesystem::path& path);
 
   std::string html() const;
   std::string markdown() const;
-  /// Writes report.html, report.md and the tables as CSV into a folder, which is made if missing.
+  /// Writes report.html, report.md and the tables as CSV into a folder, which is created if it does
+  /// not exist. InputError if a file cannot be written.
   void write(const std::filesystem::path& folder) const;
 
  private:

@@ -14,22 +14,22 @@ namespace pcl_als {
 
 class FieldTable;
 
-/// The two sets of a check; before: empty when there is one set only.
+/// Results of a delivery check (checkDelivery()) of one or two sets of strips.
 struct QualityReport {
-  CheckedBlock block;
-  std::optional<CheckedBlock> before;
-  int quality_level = 2;  ///< required quality level
+  CheckedBlock block;                  ///< the checked strips
+  std::optional<CheckedBlock> before;  ///< the same strips before their correction, if checked
+  int quality_level = 2;               ///< required quality level, 0 to 3
   double peak_memory_mb = 0.0;
 };
 
-/// A table of text. A row may end early, with a remark in place of its other cells.
+/// A table of texts. If a row has fewer cells than the table, its last cell is a remark.
 struct QualityTable {
-  std::string caption;  ///< its content, with units
+  std::string caption;  ///< content of the table, with units
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
-  std::vector<std::size_t> failed = {};  ///< rows that do not keep the required quality level
+  std::vector<std::size_t> failed = {};  ///< indices of rows that fail the required quality level
 };
-/// Heights, movements, shifts, trends, and control where it was given.
+/// The tables of heights, rigid motions, horizontal shifts, trends, and control if there is any.
 std::vector<QualityTable> qualityTables(const QualityReport& report);
 
 /// The tables and the conclusions from them, for a terminal.
@@ -37,25 +37,26 @@ std::string qualityText(const QualityReport& report);
 
 /// The text of quality.json.
 std::string qualityJson(const QualityReport& report);
-/// The description of quality.json.
+/// The fields of quality.json with their meanings and units.
 const FieldTable& qualityFields();
 
-/// The tables of a check as CSV by name: pairs, slope_aspect, profiles, offsets, run (times and
-/// memory, which differ from run to run), and control where it was given.
+/// The tables of a check as CSV text by name: pairs, slope_aspect, profiles, offsets, run (times
+/// and memory, which differ from run to run), and control if there is any.
 std::map<std::string, std::string> qualityCsvTables(const QualityReport& report);
-/// Writes quality.md and these tables as NAME.csv, each complete or not at all.
+/// Writes quality.md and these tables as NAME.csv; each file appears only when it is complete.
 void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report);
 
-/// Whether there is a reliable result: an assessed pair, or a control point.
+/// Whether there is a reliable result: at least one measured pair or control point.
 bool hasAnswer(const CheckedBlock& block);
-/// The reason for which there is no reliable result, in one line; empty where there is one.
+/// The reason for which there is no reliable result, in one line; empty if there is one.
 std::string whyUnreliable(const CheckedBlock& block);
 
+/// Whether a pair was measured.
 bool judged(const CheckedPair& pair);
-/// The same pair in the set before; null where there is none.
+/// The same pair in QualityReport::before; null if there is none.
 const CheckedPair* pairBefore(const QualityReport& report, const CheckedPair& pair);
 
-/// "QL1", or "none" where no level is satisfied.
+/// The name of a quality level: "QL1", or "none" if no level is satisfied.
 std::string levelName(const std::optional<int>& level);
 
 }  // namespace pcl_als
