@@ -24,7 +24,7 @@
 
 namespace pcl_als {
 
-/// Role of a parameter in a calibration. The bias of a parameter that was not estimated is zero.
+/// Role of a parameter in a calibration. Its bias is zero unless it was estimated.
 enum class ParameterStatus {
   estimated,
   fixed,         ///< not to be estimated, by request or by default
@@ -37,7 +37,9 @@ struct ParameterEstimate {
   double std = 0.0;         ///< standard deviation, including correlated errors
   double std_formal = 0.0;  ///< Habib et al. 2011, Eq. (26): only the noise of points
   ParameterStatus status = ParameterStatus::fixed;
-  std::string reason;  ///< why it is fixed, not estimable, or not determined; otherwise empty
+  /// Why the parameter is fixed, not estimable or not determined, or a qualification of the
+  /// estimate ("relative to system A"); may be empty.
+  std::string reason;
   /// False if the estimate differs from zero by less than two standard deviations and one standard
   /// deviation moves points noticeably (DeterminationLimits::on_points). The estimate is applied
   /// nevertheless, because correlated parameters are correct only together with it.
