@@ -91,7 +91,7 @@ struct SurfaceResult {
  * 96 bytes per cell, in compute() up to 340 more; none per point.
  * \code
  * pcl_als::SurfaceAccumulator tile(grid, options);
- * for (…) tile.add({x, y, z, intensity, return_number, number_of_returns, classification});
+ * for (const pcl_als::SurfaceReturn& point : returns) tile.add(point);
  * const pcl_als::SurfaceResult result = tile.compute();
  * \endcode
  */

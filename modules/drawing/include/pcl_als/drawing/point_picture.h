@@ -43,7 +43,7 @@ enum class PointShade { none, eye_dome, hill };
  * pcl_als::OrthographicCamera camera(30.0, 45.0);  // azimuth, elevation, degrees
  * camera.frame(minimum, maximum, picture.mapWidth(), picture.mapHeight());
  * pcl_als::PixelThinning points(camera);
- * for (…) points.add(position, value);  // metres, ground frame
+ * for (std::size_t i = 0; i < heights.size(); ++i) points.add(positions[i], heights[i]);
  * picture.draw(points, coloring).write("view.png");
  * \endcode
  */

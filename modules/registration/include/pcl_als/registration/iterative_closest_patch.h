@@ -37,7 +37,7 @@ namespace pcl_als {
  * icpatch.setFrames(strip1.frame, strip2.frame);
  * pcl::PointCloud<pcl_als::PointLidar> aligned;
  * icpatch.align(aligned);
- * if (icpatch.hasConverged()) print(icpatch.getResult().motion.shift);
+ * if (icpatch.hasConverged()) use(icpatch.getResult().motion.shift);
  * \endcode
  */
 template <typename PointSource, typename PointTarget, typename Scalar = float>

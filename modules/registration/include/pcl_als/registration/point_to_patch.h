@@ -33,8 +33,8 @@ struct PointToPatch {
  * \code
  * pcl::IterativeClosestPoint<pcl_als::PointLidar, pcl_als::PointLidar> icp;
  * pcl_als::usePointToPatch(icp).correspondences->setMaximumNormalDistance(2.0);  // metres
- * icp.setInputSource(strip1);
- * icp.setInputTarget(strip2);
+ * icp.setInputSource(strip1.cloud);
+ * icp.setInputTarget(strip2.cloud);
  * icp.setMaximumIterations(40);
  * icp.align(aligned);
  * \endcode

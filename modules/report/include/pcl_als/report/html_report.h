@@ -35,7 +35,7 @@ enum class VerdictGrade { good, attention, bad };
  * report.addVerdict("Boresight roll is −90.1 ± 0.8 arcsec.");
  * report.addSection("Pairs of strips");
  * report.addTable({"pairs", "Normal distances, m", {"pair", "before", "after"}, rows});
- * report.addPicture(pairsPlot(result), "RMS of each pair before and after");
+ * report.addPicture(pcl_als::drawCurves(plot), "RMS of each pair before and after");
  * report.addSetting("range_noise", "0.02 m");
  * report.addInput("strip1.las");
  * report.write("report");  // report/report.html, report/report.md, report/pairs.csv
