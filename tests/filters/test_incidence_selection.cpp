@@ -75,6 +75,20 @@ TEST(IncidenceSelection, EqualsTheAngleOfLevelGround) {
   EXPECT_EQ(indices.size() + inverted.size(), cloud->size());
 }
 
+TEST(IncidenceSelection, ReadsUnixTimesInMilliseconds) {
+  const Cloud::Ptr cloud = row();
+  pcl::Indices expected, found;
+  incidenceOf<PointLidar>(cloud).filter(expected);
+  for (PointLidar& point : *cloud) point.gps_time = 1e3 * (1756080000.0 + point.gps_time);
+  auto incidence = incidenceOf<PointLidar>(cloud);
+  TimeAlignment alignment;
+  alignment.offset = -1756080000.0;
+  incidence.setTimeAlignment(alignment);
+  incidence.filter(found);
+  EXPECT_EQ(found, expected);
+  EXPECT_FALSE(expected.empty());
+}
+
 TEST(IncidenceSelection, TakesNormalsOfTheUserAndPointTypesOfTheirOwn) {
   const Cloud::Ptr cloud = row();
   // A slope of 15 degrees that faces the flight line at x = 0: incidence is 15 - the angle there.

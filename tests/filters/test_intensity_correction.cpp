@@ -89,6 +89,21 @@ TEST(IntensityCorrection, LevelGroundBelowTheSensorByHand) {
   EXPECT_NEAR(filter.getRadiometry()[0].range, 1000.0F, 1e-3F);
 }
 
+TEST(IntensityCorrection, ReadsUnixTimesInMicroseconds) {
+  const Cloud::Ptr cloud = ground();
+  Cloud expected, found;
+  filterOf(cloud).filter(expected);
+  for (PointLidar& point : *cloud) point.gps_time = 1e6 * (1756080000.0 + point.gps_time);
+  auto filter = filterOf(cloud);
+  TimeAlignment alignment;
+  alignment.offset = -1756080000.0;
+  filter.setTimeAlignment(alignment);
+  filter.filter(found);
+  for (std::size_t i = 0; i < cloud->size(); ++i)
+    EXPECT_FLOAT_EQ(found[i].intensity, expected[i].intensity);
+  EXPECT_NE(expected.front().intensity, cloud->front().intensity);
+}
+
 TEST(IntensityCorrection, GivenNormalsAreUsedAndNanMeansNone) {
   const Cloud::Ptr cloud = ground();
   pcl::PointCloud<pcl::Normal>::Ptr normals(new pcl::PointCloud<pcl::Normal>);

@@ -135,6 +135,9 @@ TEST(TimeReference, RecordedUnitsBecomeSeconds) {
   for (const double other : {0.0, -5.0, 604800.0, 4.1e8, 1e11, 1e20})
     EXPECT_EQ(secondsOfTime(other), other);
   EXPECT_TRUE(std::isnan(secondsOfTime(std::nan(""))));
+  TimeAlignment alignment;
+  alignment.offset = -1756080000.0;
+  EXPECT_EQ(alignment(1756080000250.0), 0.25);  // every use of a time with a trajectory
   EXPECT_NE(unixTimeText({kUnix, kUnix + 5.0}, 1e9)
                 .find("Unix time in nanoseconds (2025-08-25): GPS time is Unix time - 315964800 + "
                       "18 s"),

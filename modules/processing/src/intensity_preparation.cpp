@@ -113,7 +113,8 @@ std::vector<IntensityRun::Sample> IntensityRun::samplesOf(std::size_t file) cons
     const std::size_t end = std::min(strip.cloud->size(), run + size.points_per_run);
     for (std::size_t i = run; i < end; ++i) {
       const PointLidar& point = (*strip.cloud)[i];
-      add(point.point_source_id, point.gps_time, detail::returnOf(strip, i, align(point.gps_time)));
+      add(point.point_source_id, secondsOfTime(point.gps_time),
+          detail::returnOf(strip, i, align(point.gps_time)));
     }
   }
   return samples;

@@ -22,29 +22,6 @@ struct TimeRange {
   }
 };
 
-/** \brief How to turn the times of a point file into the trajectory's.
- *
- * time' = time + offset; week seconds that then lie more than half a week outside the trajectory
- * belong to the neighbouring week (a mission across the end of a GPS week).
- */
-struct TimeAlignment {
-  double offset = 0.0;  ///< seconds
-  double wrap_below = -std::numeric_limits<double>::infinity();
-  double wrap_above = std::numeric_limits<double>::infinity();
-  std::string remark;  ///< what was assumed, for a user; empty when the times agree as they are
-
-  double operator()(double time) const {
-    const double shifted = time + offset;
-    if (shifted < wrap_below) return shifted + kSecondsPerWeek;
-    return shifted > wrap_above ? shifted - kSecondsPerWeek : shifted;
-  }
-  /// True when no time changes.
-  bool identity() const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return offset == 0.0 && wrap_below == -infinity && wrap_above == infinity;
-  }
-};
-
 /// Units of a recorded time in a second. Software for robots records Unix time in milli-, micro- or
 /// nanoseconds; the ranges are those of the years 2001 to 2286, and no time in seconds is that
 /// large.
@@ -58,5 +35,29 @@ inline double timeUnitsPerSecond(double recorded) {
 inline double secondsOfTime(double recorded) {
   return std::abs(recorded) < 1e12 ? recorded : recorded / timeUnitsPerSecond(recorded);
 }
+
+/** \brief How to turn the times of a point file into the trajectory's.
+ *
+ * time' = time + offset; week seconds that then lie more than half a week outside the trajectory
+ * belong to the neighbouring week (a mission across the end of a GPS week).
+ */
+struct TimeAlignment {
+  double offset = 0.0;  ///< seconds
+  double wrap_below = -std::numeric_limits<double>::infinity();
+  double wrap_above = std::numeric_limits<double>::infinity();
+  std::string remark;  ///< what was assumed, for a user; empty when the times agree as they are
+
+  /// \param recorded as the point file has it, in any unit of secondsOfTime().
+  double operator()(double recorded) const {
+    const double shifted = secondsOfTime(recorded) + offset;
+    if (shifted < wrap_below) return shifted + kSecondsPerWeek;
+    return shifted > wrap_above ? shifted - kSecondsPerWeek : shifted;
+  }
+  /// True when no time changes.
+  bool identity() const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return offset == 0.0 && wrap_below == -infinity && wrap_above == infinity;
+  }
+};
 
 }  // namespace pcl_als

@@ -40,7 +40,7 @@ void requireReach(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& poin
   std::vector<TimedPosition> sample;
   for (std::size_t i = 0; i < points.size(); i += every) {
     const PointFields<PointT> point{cloud[static_cast<std::size_t>(points[i])]};
-    sample.push_back({alignment(secondsOfTime(point.gpsTime())), frame.toGround(point.position())});
+    sample.push_back({alignment(point.gpsTime()), frame.toGround(point.position())});
   }
   requireReach(sample, frame, trajectory, filter);
 }

@@ -167,8 +167,7 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
     const PointT& point = (*this->input_)[index];
     if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) continue;
     chosen.push_back(index);
-    columns[0].push_back(
-        correction.flightTime(secondsOfTime(PointFields<PointT>{point}.gpsTime())));
+    columns[0].push_back(correction.flightTime(PointFields<PointT>{point}.gpsTime()));
     columns[1].push_back(frame_.origin.x() + static_cast<double>(point.x));
     columns[2].push_back(frame_.origin.y() + static_cast<double>(point.y));
     columns[3].push_back(frame_.origin.z() + static_cast<double>(point.z));
