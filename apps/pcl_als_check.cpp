@@ -155,6 +155,8 @@ void writeReport(const CommandLine& line, const QualityReport& report,
 }
 
 int check(const CommandLine& line) {
+  if (line.has("gis") && !PCL_ALS_WITH_GDAL)
+    throw UsageError("option -gis: built without GDAL; build with -DPCL_ALS_WITH_GDAL=ON");
   const std::vector<std::string>& files = line.inputs();
   DeliveryCheckOptions options;
   options.settings = settingsOf(line);

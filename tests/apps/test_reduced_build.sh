@@ -40,6 +40,8 @@ check 'tables of the check' test -s quality/quality.md
 check 'the page of the check' grep -q '<svg ' quality/report.html
 expect 0 'shown' view "${strips[@]}" -output top.png
 expect 1 'built without VTK' view "${strips[@]}" -window
+expect 1 'built without GDAL' check "${strips[@]}" -output layers.json -gis layers.gpkg
+absent layers.json layers.gpkg
 
 # What needs the missing libraries is refused.
 head -c 1360 /dev/zero >flight.sbet

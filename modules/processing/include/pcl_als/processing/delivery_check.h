@@ -44,7 +44,7 @@ class DeliveryCheck : public CloudJob<PointT> {
   using Ptr = std::shared_ptr<DeliveryCheck<PointT>>;
   using ConstPtr = std::shared_ptr<const DeliveryCheck<PointT>>;
 
-  DeliveryCheck() : CloudJob<PointT>("StripCheck") {}
+  DeliveryCheck() : CloudJob<PointT>("DeliveryCheck") {}
 
   /// Control points, which are used vertically (CheckSettings::control); default: none.
   void setControl(std::vector<ControlPoint> control) {
