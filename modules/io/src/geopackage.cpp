@@ -124,7 +124,7 @@ void addTable(GDALDatasetH package, const GeoTable& table, OGRSpatialReferenceH 
   for (int i = 0; i < OGR_FD_GetFieldCount(fields); ++i)
     reports.check(OGR_L_CreateField(layer, OGR_FD_GetFieldDefn(fields, i), TRUE) == OGRERR_NONE,
                   "cannot be written");
-  OGR_L_StartTransaction(layer);
+  reports.check(OGR_L_StartTransaction(layer) == OGRERR_NONE, "cannot be written");
   OGR_L_ResetReading(lines.layer());
   for (std::size_t i = 0; i < count; ++i) {
     const Feature line(OGR_L_GetNextFeature(lines.layer()));
@@ -135,7 +135,7 @@ void addTable(GDALDatasetH package, const GeoTable& table, OGRSpatialReferenceH 
     if (geometry != nullptr) OGR_F_SetGeometryDirectly(feature.get(), geometry);
     reports.check(OGR_L_CreateFeature(layer, feature.get()) == OGRERR_NONE, "cannot be written");
   }
-  OGR_L_CommitTransaction(layer);
+  reports.check(OGR_L_CommitTransaction(layer) == OGRERR_NONE, "cannot be written");
 }
 
 }  // namespace
