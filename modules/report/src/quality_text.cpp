@@ -289,7 +289,7 @@ std::string whyUnreliable(const CheckedBlock& block) {
     if (!pair.assessment.reason.empty())
       return "strips " + pair.a + " and " + pair.b + ": " + pair.assessment.reason;
   }
-  return block.control ? "no strip covers a control point" : "no two strips overlap";
+  return "no strip covers a control point";
 }
 
 std::vector<QualityTable> qualityTables(const QualityReport& report) {
