@@ -90,8 +90,7 @@ checks=$((checks + 1))
 expect 0 '57138 & 57139' check ahn3_cropped_?.las -output quality.json -report quality
 while read -r a b offset; do
   checks=$((checks + 1))
-  found=$(awk -F, -v a="$a" -v b="$b" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
-    $2 == a && $3 == b { print $at["vertical_median_m"] }' quality/pairs.csv)
+  found=$(cell quality "$a" "$b" vertical_median_m)
   near "${found:-9}" "$offset" 0.003 || failed "Delft: $a is $found above $b, measured $offset"
 done <<'OFFSETS'
 44266 57138 -0.009

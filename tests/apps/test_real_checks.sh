@@ -8,11 +8,6 @@ data=${PCL_ALS_TEST_DATA:-$3}
 source "$(dirname -- "${BASH_SOURCE[0]}")/tool_test.sh"
 [[ -d $data/real/bcts ]] || { echo "real test data is absent: $data"; exit 77; }
 
-# cell FOLDER A B COLUMN: of the pair in FOLDER/pairs.csv
-cell() {
-  awk -F, -v a="$2" -v b="$3" -v name="$4" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
-    $2 == a && $3 == b { print $at[name] }' "$1/pairs.csv"
-}
 
 # Ground that a filter found in all strips together: with and without the classes the same, near the offsets of plain
 # ground in 1 m cells (the data's README). What is compared is other ground: the strips tilt, so 1 cm is allowed.

@@ -5,7 +5,7 @@
 # The main job from end to end: simulate, calibrate, apply, and calibrate what came out.
 source "$(dirname -- "$0")/tool_test.sh"
 value() { cmake -DJSON="$1" -DNAME="$2" -DKEY="$3" -P "$here/parameter.cmake" 2>&1; }
-near() {  # FILE NAME EXPECTED TOLERANCE
+bias_near() {  # FILE NAME EXPECTED TOLERANCE
   checks=$((checks + 1))
   awk -v a="$(value "$1" "$2" bias)" -v b="$3" -v t="$4" 'BEGIN { exit !(a - b <= t && b - a <= t) }' ||
     failed "$1: $2 is $(value "$1" "$2" bias), not $3 within $4"
@@ -22,10 +22,10 @@ expect 0 "converged" calibrate block/strip*.las -trajectory block/trajectory.csv
   -control block/control.csv -output calibration.json -corrected corrected -threads 3
 # The preset's biases; tolerances are some standard deviations of this small block, and far below
 # the biases themselves.
-near calibration.json boresight_roll -90 3
-near calibration.json boresight_pitch -30 5
-near calibration.json range_bias 0.12 0.01
-near calibration.json scan_angle_scale 1e-4 5e-5
+bias_near calibration.json boresight_roll -90 3
+bias_near calibration.json boresight_pitch -30 5
+bias_near calibration.json range_bias 0.12 0.01
+bias_near calibration.json scan_angle_scale 1e-4 5e-5
 
 # -corrected writes what pcl_als_apply does.
 expect 0 "" apply block/strip1.las applied.las -trajectory block/trajectory.csv -calibration calibration.json
@@ -41,13 +41,13 @@ absent none.las
 # Without its attitude the trajectory gives the points' own: nearly the same biases.
 expect 0 "converged" calibrate block/strip*.las -trajectory block/trajectory.csv -control block/control.csv \
   -model quasi_rigorous -output quasi.json
-near quasi.json boresight_roll -90 3
+bias_near quasi.json boresight_roll -90 3
 check "attitude from points is told" grep -q '"attitude": "points"' quasi.json
 expect 0 "from the points" apply block/strip1.las quasi.las -trajectory block/trajectory.csv -calibration quasi.json
 # The method as published takes the sensor as vertical: here it is, in the other block it is not.
 expect 0 "converged" calibrate block/strip*.las -trajectory block/trajectory.csv -control block/control.csv \
   -model quasi_rigorous -vertical -output vertical.json
-near vertical.json boresight_roll -90 3
+bias_near vertical.json boresight_roll -90 3
 check "a vertical sensor is no matter" test "$(grep -c 'is taken as vertical' vertical.json)" = 0
 run calibrate "$block"/strip[12].las -trajectory "$block/trajectory.csv" -model quasi_rigorous -vertical -output tilted.json
 check "a tilted one is" grep -q 'is taken as vertical.*it was not: from the points: pitch' tilted.json
@@ -60,10 +60,10 @@ absent no.las
 # The corrected strips have no biases left.
 expect 0 "converged" calibrate corrected/strip*.las -trajectory block/trajectory.csv \
   -control block/control.csv -output again.json
-near again.json boresight_roll 0 0.5
+bias_near again.json boresight_roll 0 0.5
 # Pitch trades with lever_arm_y: 4 mm there are an arc-second at these heights.
-near again.json boresight_pitch 0 3
-near again.json range_bias 0 0.003
+bias_near again.json boresight_pitch 0 3
+bias_near again.json range_bias 0 0.003
 
 # Threads change no bit.
 expect 0 "" apply block/strip1.las one.las -trajectory block/trajectory.csv -calibration calibration.json -threads 1

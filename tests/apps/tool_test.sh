@@ -70,6 +70,11 @@ number() {
   awk -v key="\"$1\":" -v field="\"$2\":" '$1 == key { on = 1 }
     on && $1 == field { sub(",", "", $2); print $2; exit }' "$3"
 }
+# cell FOLDER A B COLUMN: of the pair in FOLDER/pairs.csv
+cell() {
+  awk -F, -v a="$2" -v b="$3" -v name="$4" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
+    $2 == a && $3 == b { print $at[name] }' "$1/pairs.csv"
+}
 # near A B TOLERANCE: two numbers differ by the tolerance at most
 near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a != "" && b != "" && (a - b) ^ 2 <= t ^ 2) }'; }
 

@@ -1,5 +1,5 @@
-# Writes a program part for the examples of headers: their includes, and a function for every block
-# between \code and \endcode. Uses the names that header_examples.h declares.
+# Writes a source file with the examples of headers: the includes of these headers, and a function
+# for every block between \code and \endcode, which uses the names of header_examples.h.
 FNR == 1 { include = FILENAME; sub(/.*\/include\//, "", include); has_example = 0 }
 /\\code/ {
   if (!has_example) includes = includes "#include <" include ">\n"

@@ -79,7 +79,7 @@ struct SurveyCalibration {
  * \param flight the trajectory as delivered; if it has attitude, the model is the rigorous one
  *
  * UsageError for unknown strips or impossible settings, InputError for unusable input, Cancelled.
- * If the calibration does not converge or gives no improvement, the verdict of the result says so.
+ * If the calibration does not converge or gives no improvement, the verdict is not usable.
  * \code
  * pcl_als::SurveyReader survey({"strip1.las", "strip2.las"});
  * pcl_als::CalibrationOptions options;

@@ -35,7 +35,7 @@ namespace pcl_als {
  * criterion of surfaces alone. For other types than PointLidar include impl/system_calibration.hpp.
  *
  * UsageError for wrong arguments, InputError for unusable data, Cancelled. If the calibration does
- * not converge, the verdict of the result says so. Memory: that of calibrateSurvey(); the clouds
+ * not converge, the verdict is not usable. Memory: that of calibrateSurvey(); the clouds
  * are not copied.
  * \code
  * pcl_als::SystemCalibration<pcl_als::PointLidar> calibration;

@@ -53,7 +53,7 @@ struct TimeAlignment {
     if (shifted < wrap_below) return shifted + kSecondsPerWeek;
     return shifted > wrap_above ? shifted - kSecondsPerWeek : shifted;
   }
-  /// True when no time changes.
+  /// True if no time in seconds changes.
   bool identity() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     return offset == 0.0 && wrap_below == -infinity && wrap_above == infinity;

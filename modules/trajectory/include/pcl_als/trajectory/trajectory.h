@@ -144,7 +144,7 @@ class Trajectory {
   Trajectory withAttitude(const std::function<PitchAndCrab(double time)>& attitude) const;
 
   /// One line for each kind of repair (outliers, samples out of order, equal times, single samples
-  /// between gaps, sensor at rest); empty without repairs.
+  /// between gaps, sensor at rest); empty if nothing was repaired.
   const std::vector<std::string>& repairs() const { return repairs_; }
 
   /// Whether the trajectory covers a time. NaN counts as before the start.
